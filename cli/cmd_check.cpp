@@ -20,6 +20,7 @@ namespace {
 
 struct CheckOptions {
   std::string mesh;
+  std::string piece;
   std::string printer;
   std::optional<double> min_wall_mm;
   std::optional<double> min_gap_mm;
@@ -63,9 +64,9 @@ Result<Judged> judge_file(const std::string& file, const MeshFrameOptions& frame
   return Judged{std::move(mesh), std::move(verdict).value(), std::move(more)};
 }
 
-Result<Judged> judge_project(const std::string& file, const mesh::Printer& printer,
-                             const Progress& progress) {
-  const auto opened = open_project(file, progress);
+Result<Judged> judge_project(const std::string& file, const std::string& piece,
+                             const mesh::Printer& printer, const Progress& progress) {
+  const auto opened = open_clay(file, piece, progress);
   if (!opened) return opened.error();
   auto found = io::check_clay(opened.value().clay, printer, progress);
   if (!found) return found.error();
@@ -91,7 +92,7 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
     if (auto none = check_no_frame(options.mesh, options.frame); !none) return none.error();
   }
   const auto judged = is_project
-                          ? judge_project(options.mesh, printer.value(), progress)
+                          ? judge_project(options.mesh, options.piece, printer.value(), progress)
                           : judge_file(options.mesh, options.frame, printer.value(), progress);
   if (!judged) return named(options.mesh, judged.error());
   const auto& [mesh, verdict, more] = judged.value();
@@ -141,6 +142,7 @@ void add_check(CLI::App& app, Selected& selected) {
       ->add_option("MESH", options->mesh,
                    "OBJ, STL, PLY, GLB, glTF or 3MF; or a project (NAME.vdb)")
       ->required();
+  add_piece_option(*command, options->piece);
   options->frame.add_to(*command);
   command->add_option("--printer", options->printer, "a printer profile: what it takes")
       ->type_name("FILE.json");

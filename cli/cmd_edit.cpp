@@ -28,6 +28,7 @@ struct NamedOperation {
 
 struct EditOptions {
   std::string project;
+  std::string piece;
   std::filesystem::path output;
   std::map<std::string, std::vector<std::string>> texts;  // by option, in order
   std::vector<NamedOperation> operations;
@@ -188,7 +189,12 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   if (auto ok = check_files(options); !ok) return ok.error();
   auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
-  Clay& clay = opened.value().clay;
+  Sculpture& sculpture = opened.value().sculpture;
+  if (auto selected = select_piece(options.project, options.piece, sculpture); !selected) {
+    return selected.error();
+  }
+  if (auto free = sculpture.check_unlocked(); !free) return named(options.project, free.error());
+  Clay& clay = sculpture.clay();
   Outcome outcome;
   outcome.json["operations"] = Json::array();
   const std::uint64_t first_hash = clay.hash();
@@ -198,7 +204,7 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
     outcome.json["operations"].push_back(std::move(done).value());
     if (auto stop = check_interrupt(); !stop) return stop.error();
   }
-  if (auto saved = replace_project(options.output, clay); !saved) return saved.error();
+  if (auto saved = replace_project(options.output, sculpture); !saved) return saved.error();
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.json["hash"] = hex(clay.hash());
   outcome.json["start_hash"] = hex(first_hash);
@@ -216,6 +222,7 @@ void add_edit(CLI::App& app, Selected& selected) {
       add_command(app, selected, "edit", "change a project as a whole: operations in their order",
                   [options](const Progress& progress) { return run_edit(*options, progress); });
   command->add_option("PROJECT", options->project, "the project to change")->required();
+  add_piece_option(*command, options->piece);
   add_file(*command, "-o,--output", options->output, {".vdb"}, "the project to write")->required();
   const auto add = [&](const std::string& name, const char* form, const char* help) {
     // One word for each option, or CLI11 would take the operand behind it as well.

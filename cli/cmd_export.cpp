@@ -19,6 +19,7 @@ namespace {
 
 struct ExportArguments {
   std::string project;
+  std::string piece;
   std::filesystem::path mesh;
   std::filesystem::path report;  // "": none
   int triangles = 0;
@@ -68,7 +69,7 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
 
 Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {
   const Stopwatch watch;
-  const auto opened = open_project(options.project, progress);
+  const auto opened = open_clay(options.project, options.piece, progress);
   if (!opened) return opened.error();
   io::ExportOptions wanted;
   wanted.triangles = options.triangles;
@@ -89,10 +90,10 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
 }
 
 /// The field of a project as one grid for other programs (volume_file.h).
-Result<Outcome> export_volume(const std::string& project, const std::filesystem::path& file,
-                              const Progress& progress) {
+Result<Outcome> export_volume(const std::string& project, const std::string& piece,
+                              const std::filesystem::path& file, const Progress& progress) {
   const Stopwatch watch;
-  const auto opened = open_project(project, progress);
+  const auto opened = open_clay(project, piece, progress);
   if (!opened) return opened.error();
   std::error_code none;
   if (std::filesystem::equivalent(project, file, none)) {
@@ -131,7 +132,7 @@ Result<Outcome> run_export(const ExportArguments& options, const Progress& progr
     if (auto output = check_output(options.report); !output) return output.error();
   }
   auto outcome = has_ending(options.mesh, ".vdb")
-                     ? export_volume(options.project, options.mesh, progress)
+                     ? export_volume(options.project, options.piece, options.mesh, progress)
                      : export_as_mesh(options, progress);
   if (!outcome || options.report.empty()) return outcome;
   if (auto written = write_report(options.report, outcome.value().json); !written) {
@@ -156,6 +157,7 @@ void add_export(CLI::App& app, Selected& selected) {
       "write the surface as a mesh file and check it; status 1 when it is not printable",
       [options](const Progress& progress) { return run_export(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
+  add_piece_option(*command, options->piece);
   add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb", ".vdb"},
            "the mesh to write, in mm; its ending chooses the format; .vdb: the field instead")
       ->required();

@@ -29,6 +29,7 @@ enum class MethodChoice { automatic, lod, fine, point };
 
 struct ForceOptions {
   std::string project;
+  std::string piece;
   ForceTool tool;
   haptics::ForceMaterial material;
   std::size_t law = 0;     // energy, blanch
@@ -263,7 +264,7 @@ void add_windows(const WindowTimes& times, Outcome& outcome) {
 }
 
 Result<Outcome> run_force(const ForceOptions& options, const Progress& progress) {
-  auto opened = open_project(options.project, progress);
+  auto opened = open_clay(options.project, options.piece, progress);
   if (!opened) return opened.error();
   const auto plan = make_plan(options, opened.value().clay);
   if (!plan) return plan.error();
@@ -288,6 +289,7 @@ void add_force(CLI::App& app, Selected& selected) {
       add_command(app, selected, "force", "say what a tool at one point feels",
                   [options](const Progress& progress) { return run_force(*options, progress); });
   command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
+  add_piece_option(*command, options->piece);
   command
       ->add_option_function<std::string>(
           "--tool", [options](const std::string& text) { read_tool(text, options->tool); },

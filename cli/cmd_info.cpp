@@ -23,35 +23,82 @@ Json bbox_json(const Box3& box) {
   return Json::array({to_json(box.min), to_json(box.max)});
 }
 
-std::string info_text(const Clay& clay, const TriangleMesh& surface, const std::string& hash) {
+Json placement_json(const Placement& placement) {
+  const Quat& q = placement.orientation;
+  return {{"position_mm", to_json(placement.position_mm)},
+          {"orientation", Json::array({q.w, q.x, q.y, q.z})}};
+}
+
+/// What is in one piece; volumes and boxes are in its own frame.
+Json clay_json(const Clay& clay, const TriangleMesh& surface) {
+  const std::vector<LevelStats> levels = clay.level_stats();
+  Json json;
+  json["levels"] = to_json(levels);
+  json["bbox_mm"] = bbox_json(bounds(surface));
+  json["volume_mm3"] = signed_volume(surface);
+  json["area_mm2"] = surface_area(surface);
+  json["hash"] = hex(clay.hash());
+  json["bytes"] = total_bytes(levels);
+  json["triangles"] = surface.triangles.size();
+  json["tolerance_voxels"] = clay.options().tolerance_voxels;
+  const auto& edge = clay.options().edge_radius_mm;
+  json["edge_radius_mm"] = edge ? Json(*edge) : Json(nullptr);
+  return json;
+}
+
+std::string clay_text(const Clay& clay, const TriangleMesh& surface) {
   const Vec3 size = bounds(surface).size();
   return levels_text(clay.level_stats()) + "size " + number(size.x) + " x " + number(size.y) +
          " x " + number(size.z) + " mm, volume " + number(signed_volume(surface)) + " mm3, area " +
-         number(surface_area(surface)) + " mm2\nhash " + hash + "\n";
+         number(surface_area(surface)) + " mm2\n";
 }
 
+std::string look_text(const PieceLook& look, bool is_active) {
+  const Vec3& at = look.placement.position_mm;
+  std::string text = "piece '" + look.name + "' at " + number(at.x) + "," + number(at.y) + "," +
+                     number(at.z) + " mm";
+  if (is_active) text += ", active";
+  if (!look.is_visible) text += ", hidden";
+  if (look.is_locked) text += ", locked";
+  return text + "\n";
+}
+
+Json look_json(const PieceLook& look) {
+  Json json = placement_json(look.placement);
+  json["name"] = look.name;
+  json["visible"] = look.is_visible;
+  json["locked"] = look.is_locked;
+  json["color"] = look.color ? Json(*look.color) : Json(nullptr);
+  return json;
+}
+
+/// Keys of a clay alone stand at the top, as they always did; several pieces are a list.
 Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   const auto opened = open_project(project, progress);
   if (!opened) return opened.error();
-  const Clay& clay = opened.value().clay;
-  const TriangleMesh surface = extract_surface(clay);
-  const std::vector<LevelStats> levels = clay.level_stats();
-  const std::string hash = hex(clay.hash());
+  const Sculpture& sculpture = opened.value().sculpture;
   Outcome outcome;
-  outcome.json["levels"] = to_json(levels);
-  outcome.json["bbox_mm"] = bbox_json(bounds(surface));
-  outcome.json["volume_mm3"] = signed_volume(surface);
-  outcome.json["area_mm2"] = surface_area(surface);
+  outcome.json["pieces"] = Json::array();
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
+    const Clay& clay = sculpture.clay(n);
+    const auto surface = extract_surface(clay, progress);
+    if (!surface) return surface.error();
+    Json piece = clay_json(clay, surface.value());
+    if (sculpture.piece_count() == 1) outcome.json.update(piece);
+    piece.update(look_json(sculpture.look(n)));
+    outcome.json["pieces"].push_back(std::move(piece));
+    if (!sculpture.is_plain()) {
+      outcome.text += look_text(sculpture.look(n), n == sculpture.active());
+    }
+    outcome.text += clay_text(clay, surface.value());
+  }
+  const std::string hash = hex(sculpture.hash());
+  outcome.json["active"] = sculpture.look(sculpture.active()).name;
   outcome.json["hash"] = hash;
-  outcome.json["bytes"] = total_bytes(levels);
   // Of the project alone, without its journal.
   outcome.json["file_bytes"] = std::filesystem::file_size(project);
-  outcome.json["triangles"] = surface.triangles.size();
-  outcome.json["tolerance_voxels"] = clay.options().tolerance_voxels;
-  const auto& edge = clay.options().edge_radius_mm;
-  outcome.json["edge_radius_mm"] = edge ? Json(*edge) : Json(nullptr);
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  outcome.text = info_text(clay, surface, hash);
+  outcome.text += "hash " + hash + "\n";
   return outcome;
 }
 

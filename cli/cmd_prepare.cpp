@@ -22,6 +22,7 @@ namespace {
 
 struct PrepareCommand {
   std::string input;
+  std::string piece;
   std::filesystem::path output;
   std::string printer;
   std::filesystem::path pictures;
@@ -54,7 +55,7 @@ struct ReadClay {
 
 Result<ReadClay> read_clay(const PrepareCommand& command, const Progress& progress) {
   if (has_ending(command.input, ".vdb")) {
-    auto opened = open_project(command.input, progress);
+    auto opened = open_clay(command.input, command.piece, progress);
     if (!opened) return opened.error();
     return ReadClay{std::move(opened.value().clay), opened.value().recovered_steps};
   }
@@ -300,6 +301,7 @@ void add_prepare(CLI::App& app, Selected& selected) {
       [options](const Progress& progress) { return run_prepare(*options, progress); });
   command->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, GLB, 3MF")
       ->required();
+  add_piece_option(*command, options->piece);
   add_file(*command, "-o,--output", options->output, {".3mf", ".stl", ".obj", ".ply", ".glb"},
            "the mesh to write; of several pieces NAME-1, NAME-2, ..., NAME-plugs")
       ->required();

@@ -21,6 +21,7 @@ constexpr int kMostPixels = 8192;
 
 struct RenderCommand {
   std::string input;
+  std::string piece;
   std::filesystem::path picture;
   RenderOptions render;
   MeshFrameOptions frame;
@@ -84,8 +85,8 @@ struct Subject {
   Json frame = Json::object();  ///< of a mesh
 };
 
-Result<Subject> subject_of(const std::string& file, const MeshFrameOptions& frame,
-                           const Progress& progress) {
+Result<Subject> subject_of(const std::string& file, const std::string& piece,
+                           const MeshFrameOptions& frame, const Progress& progress) {
   if (!is_project(file)) {
     auto read = open_mesh(file, frame);
     if (!read) return read.error();
@@ -94,7 +95,7 @@ Result<Subject> subject_of(const std::string& file, const MeshFrameOptions& fram
     return subject;
   }
   if (auto none = check_no_frame(file, frame); !none) return none.error();
-  auto opened = open_project(file, progress);
+  auto opened = open_clay(file, piece, progress);
   if (!opened) return opened.error();
   auto clay = std::make_shared<const Clay>(std::move(opened.value().clay));
   auto surface = extract_surface(*clay, progress);
@@ -106,7 +107,7 @@ Result<Outcome> run_render(const RenderCommand& command, const Progress& progres
   const Stopwatch watch;
   if (auto input = check_input(command.input); !input) return input.error();
   if (auto output = check_output(command.picture); !output) return output.error();
-  const auto read = subject_of(command.input, command.frame, progress);
+  const auto read = subject_of(command.input, command.piece, command.frame, progress);
   if (!read) return read.error();
   const Subject& subject = read.value();
   if (auto stop = check_interrupt(); !stop) return stop.error();
@@ -145,6 +146,7 @@ void add_render(CLI::App& app, Selected& selected) {
       ->add_option("INPUT", options->input, "a project (NAME.vdb) or OBJ, STL, PLY, GLB, glTF, 3MF")
       ->required();
   add_file(*command, "-o,--output", options->picture, {".png"}, "the picture to write")->required();
+  add_piece_option(*command, options->piece);
   options->frame.add_to(*command);
   command
       ->add_option_function<std::string>(

@@ -33,15 +33,15 @@ struct Replay {
 };
 
 /// Where the work goes: a session on the output, or, when another file is to be replaced by it, the
-/// clay alone until it is finished.
+/// sculpture alone until it is finished.
 struct SculptTarget {
   std::optional<io::Session> session;
-  std::optional<Clay> alone;
+  std::optional<Sculpture> alone;
   std::int64_t recovered = 0;
 
-  Clay& clay() {
+  Sculpture& sculpture() {
     assert(session.has_value() != alone.has_value());
-    return session ? session->clay() : *alone;
+    return session ? session->sculpture() : *alone;
   }
   void record(const io::ScriptStep& step) {
     if (session) session->record(step);
@@ -59,7 +59,7 @@ Result<io::OpenedProject> start_shape(const SculptOptions& options,
   const io::StartShape& start = *script.start;
   auto clay = start.kind == io::StartShape::Kind::ball ? Clay::ball(start.size_mm.x, start.options)
                                                        : Clay::block(start.size_mm, start.options);
-  if (clay) return io::OpenedProject{std::move(clay).value(), 0, {}};
+  if (clay) return io::OpenedProject{Sculpture(std::move(clay).value()), 0, {}};
   // A start that the machine cannot hold is the script's number, not the machine's failure.
   const ErrorKind kind =
       clay.error().kind == ErrorKind::memory ? ErrorKind::bad_input : clay.error().kind;
@@ -94,11 +94,11 @@ Result<SculptTarget> prepare(const SculptOptions& options, const io::StrokeScrip
   target.recovered = start.value().recovered_steps;
   // Another project of that name stays until this one is finished.
   if (std::filesystem::exists(options.output)) {
-    target.alone = std::move(start).value().clay;
+    target.alone = std::move(start).value().sculpture;
     if (auto ok = target.alone->set_limits(keep.limits); !ok) return ok.error();
     return target;
   }
-  auto session = io::Session::create(options.output, std::move(start).value().clay, keep);
+  auto session = io::Session::create(options.output, std::move(start).value().sculpture, keep);
   if (!session) return session.error();
   print_notes(session.value().notes());
   target.session = std::move(session).value();
@@ -117,9 +117,10 @@ Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& s
     return progress("sculpt", before + fraction / count);
   };
   const bool is_operation = std::holds_alternative<Operation>(script.steps[i]);
-  const auto report = io::apply_step(target.clay(), script.steps[i], within);
+  const auto report = io::apply_step(target.sculpture(), script.steps[i], within);
   if (!report) {
-    const char* kind = is_operation ? ": operation " : ": stroke ";
+    const bool is_stroke = std::holds_alternative<Stroke>(script.steps[i]);
+    const char* kind = is_operation ? ": operation " : is_stroke ? ": stroke " : ": step ";
     return Error{report.error().kind,
                  options.strokes + kind + std::to_string(i + 1) + ": " + report.error().message};
   }
@@ -132,18 +133,19 @@ Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& s
   return {};
 }
 
-/// Takes every stroke of the script back; the clay must then have the bits it started with.
+/// Takes every stroke of the script back; the sculpture must then have the bits it started with.
 Result<int> undo_all(SculptTarget& target, int first_depth, std::uint64_t first_hash) {
   int undone = 0;
-  Clay& clay = target.clay();
-  while (clay.undo_depth() > first_depth && clay.undo()) {
+  Sculpture& sculpture = target.sculpture();
+  while (sculpture.undo_depth() > first_depth && sculpture.undo()) {
     target.record(io::HistoryStep::undo);
     ++undone;
   }
-  if (clay.hash() == first_hash) return undone;
+  if (sculpture.hash() == first_hash) return undone;
   return Error{ErrorKind::internal, "after undoing " + std::to_string(undone) +
-                                        " strokes the hash is " + hex(clay.hash()) + " and not " +
-                                        hex(first_hash) + "; please report this as a bug"};
+                                        " strokes the hash is " + hex(sculpture.hash()) +
+                                        " and not " + hex(first_hash) +
+                                        "; please report this as a bug"};
 }
 
 /// The whole script, and what it comes to saved.
@@ -151,7 +153,7 @@ Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script
                     SculptTarget& target, std::uint64_t first_hash, const Progress& progress) {
   Replay done;
   // Steps of before the script are not its own to take back.
-  const int first_depth = target.clay().undo_depth();
+  const int first_depth = target.sculpture().undo_depth();
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     auto step = replay_step(options, script, i, target, done, progress);
     if (!step) return step.error();
@@ -167,7 +169,8 @@ Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script
   return done;
 }
 
-std::string sculpt_text(const Clay& clay, const Json& json, const std::filesystem::path& output) {
+std::string sculpt_text(const Sculpture& sculpture, const Json& json,
+                        const std::filesystem::path& output) {
   std::string text = json["strokes"].dump() + " strokes, " + json["dabs"].dump() + " dabs, " +
                      number(json["dab_ms"]["p50"]) + " ms a dab (p99 " +
                      number(json["dab_ms"]["p99"]) + ", max " + number(json["dab_ms"]["max"]) +
@@ -176,20 +179,20 @@ std::string sculpt_text(const Clay& clay, const Json& json, const std::filesyste
     text += std::to_string(operations) + (operations == 1 ? " operation\n" : " operations\n");
   }
   if (json.contains("undone")) text += json["undone"].dump() + " strokes undone\n";
-  return text + levels_text(clay.level_stats()) + "hash " + hex(clay.hash()) + "\nsaved '" +
-         output.string() + "'\n";
+  return text + levels_text(sculpture.clay().level_stats()) + "hash " + hex(sculpture.hash()) +
+         "\nsaved '" + output.string() + "'\n";
 }
 
-Outcome outcome_of(const Replay& replayed, const Clay& clay, std::uint64_t first_hash) {
+Outcome outcome_of(const Replay& replayed, const Sculpture& sculpture, std::uint64_t first_hash) {
   Outcome outcome;
   outcome.json["strokes"] = replayed.strokes;
   outcome.json["operations"] = replayed.operations;
   outcome.json["dabs"] = replayed.dabs;
   outcome.json["dab_ms"] = percentiles(replayed.dab_ms);
   if (replayed.undone) outcome.json["undone"] = *replayed.undone;
-  outcome.json["hash"] = hex(clay.hash());
+  outcome.json["hash"] = hex(sculpture.hash());
   outcome.json["start_hash"] = hex(first_hash);
-  outcome.json["levels"] = to_json(clay.level_stats());
+  outcome.json["levels"] = to_json(sculpture.clay().level_stats());
   return outcome;
 }
 
@@ -205,19 +208,19 @@ Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progres
   auto prepared = prepare(options, script.value(), progress);
   if (!prepared) return prepared.error();
   SculptTarget& target = prepared.value();
-  const std::uint64_t first_hash = target.clay().hash();
+  const std::uint64_t first_hash = target.sculpture().hash();
   const auto replayed = work(options, script.value(), target, first_hash, progress);
   if (!replayed) {
     // What cannot be taken back either is told by the next command that opens the project.
     if (target.session) static_cast<void>(target.session->discard().ok());
     return replayed.error();
   }
-  Outcome outcome = outcome_of(replayed.value(), target.clay(), first_hash);
+  Outcome outcome = outcome_of(replayed.value(), target.sculpture(), first_hash);
   outcome.json["recovered_strokes"] = target.recovered;
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = sculpt_text(target.clay(), outcome.json, options.output);
+  outcome.text = sculpt_text(target.sculpture(), outcome.json, options.output);
   if (target.session) {
-    // Last, since it takes the clay that the text is about.
+    // Last, since it takes the sculpture that the text is about.
     if (auto closed = target.session->close(); !closed) return closed.error();
   }
   return outcome;

@@ -36,7 +36,7 @@ set(ARGIL_SOURCES_evaluation evaluation)
 set(ARGIL_SOURCES_cli cli)
 set(ARGIL_FOLDERS_core "")
 set(ARGIL_FOLDERS_engine rows distance field feet edit import tool brush action symmetry clay raycast surface operation
-                         window live)
+                         sculpture window live)
 set(ARGIL_FOLDERS_haptics math force scene servo bridge falcon simulation analysis rig)
 set(ARGIL_FOLDERS_mesh topology measure check decimate repair prepare)
 set(ARGIL_FOLDERS_io file format mesh_format vdb script compare convert project)

@@ -69,7 +69,7 @@ void KeptStrokes::tell_of_autosave() {
 /// all where only the sync failed, is followed by its undo.
 void KeptStrokes::refuse(const Error& cause) {
   std::size_t taken_back = 0;
-  while (!unsure_.empty() && session_.clay().undo()) {
+  while (!unsure_.empty() && session_.sculpture().undo()) {
     session_.record(io::HistoryStep::undo);
     unsure_.pop_back();
     ++taken_back;

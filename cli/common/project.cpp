@@ -3,8 +3,10 @@
 #include "common/project.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "common/options.h"
+#include "common/output.h"
 
 namespace argil::cli {
 
@@ -20,11 +22,50 @@ Result<io::OpenedProject> open_project(const std::filesystem::path& file,
   return opened;
 }
 
-Result<void> replace_project(const std::filesystem::path& file, const Clay& clay) {
-  const auto notes = io::replace_project(file, clay);
+void add_piece_option(CLI::App& command, std::string& piece) {
+  command.add_option("--piece", piece, "of a project with several pieces: the one that is meant");
+}
+
+Result<void> select_piece(const std::filesystem::path& file, const std::string& piece,
+                          Sculpture& sculpture) {
+  if (!piece.empty()) {
+    auto selected = sculpture.apply(SelectPiece{piece});
+    return selected ? selected : named(file.string(), selected.error());
+  }
+  if (sculpture.piece_count() == 1) return {};
+  std::string names;
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
+    names.append(n == 0 ? "'" : ", '").append(sculpture.look(n).name).append("'");
+  }
+  return Error{ErrorKind::bad_input, "'" + file.string() + "' has several pieces, " + names +
+                                         "; name the one that is meant with --piece"};
+}
+
+Result<OpenedClay> open_clay(const std::filesystem::path& file, const std::string& piece,
+                             const Progress& progress) {
+  auto opened = open_project(file, progress);
+  if (!opened) return opened.error();
+  Sculpture& sculpture = opened.value().sculpture;
+  if (auto selected = select_piece(file, piece, sculpture); !selected) return selected.error();
+  return OpenedClay{std::move(sculpture).take_clay(), opened.value().recovered_steps};
+}
+
+namespace {
+
+Result<void> replaced(const Result<std::vector<std::string>>& notes) {
   if (!notes) return notes.error();
   print_notes(notes.value());
   return {};
+}
+
+}  // namespace
+
+Result<void> replace_project(const std::filesystem::path& file, const Clay& clay) {
+  return replaced(io::replace_project(file, clay));
+}
+
+Result<void> replace_project(const std::filesystem::path& file, const Sculpture& sculpture) {
+  return replaced(io::replace_project(file, sculpture));
 }
 
 }  // namespace argil::cli

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
@@ -19,7 +22,25 @@ void print_notes(const std::vector<std::string>& notes);
 Result<io::OpenedProject> open_project(const std::filesystem::path& file,
                                        const Progress& progress = {});
 
+/// --piece of commands that work with one clay of a project; `piece` outlives the command line.
+void add_piece_option(CLI::App& command, std::string& piece);
+
+/// Makes the piece of that name the active one; "" is for a project that has only one.
+/// Errors  bad_input: no such piece; several, and no name.
+Result<void> select_piece(const std::filesystem::path& file, const std::string& piece,
+                          Sculpture& sculpture);
+
+/// One clay of a project, in its own frame.
+struct OpenedClay {
+  Clay clay;
+  std::int64_t recovered_steps = 0;
+};
+/// Errors  as open_project and select_piece.
+Result<OpenedClay> open_clay(const std::filesystem::path& file, const std::string& piece,
+                             const Progress& progress = {});
+
 /// Saves over a project that is not being sculpted; prints what became of its journal.
 Result<void> replace_project(const std::filesystem::path& file, const Clay& clay);
+Result<void> replace_project(const std::filesystem::path& file, const Sculpture& sculpture);
 
 }  // namespace argil::cli

@@ -160,7 +160,7 @@ Result<DecimateResult> measure_decimate(bool quick, const std::filesystem::path&
     return added.error();
   }
   if (project.empty()) return result;
-  auto opened = cli::open_project(project, progress);
+  auto opened = cli::open_clay(project, "", progress);
   if (!opened) return opened.error();
   const std::string name = project.stem().string();
   if (auto measured = measure_piece(name, opened.value().clay, runs, progress, result); !measured) {

@@ -61,7 +61,7 @@ void row(const test::ScratchFolder& folder, const char* name, const io::ScriptSt
   {
     io::Session session = opened(project, 0);
     work = took([&] {
-      if (auto done = io::apply_step(session.clay(), step); !done) fail(done.error().message);
+      if (auto done = io::apply_step(session.sculpture(), step); !done) fail(done.error().message);
     });
     record = took([&] { session.record(step); });
     safe = took([&] {
@@ -75,7 +75,7 @@ void row(const test::ScratchFolder& folder, const char* name, const io::ScriptSt
   Took pause, from_autosave;
   {
     io::Session session = opened(project, 500);
-    if (auto done = io::apply_step(session.clay(), step); !done) fail(done.error().message);
+    if (auto done = io::apply_step(session.sculpture(), step); !done) fail(done.error().message);
     pause = took([&] { session.record(step); });
     for (int n = 0; n < 600 && !std::filesystem::exists(folder / ".piece.autosave.vdb"); ++n) {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -129,7 +129,7 @@ TEST_F(CliEdit, StartsFromWhatAKilledSessionLeft) {
     auto session = io::Session::open(path("p.vdb"));
     ASSERT_TRUE(session) << session.error().message;
     const io::ScriptStep step = Operation(Offset{1.0});
-    ASSERT_TRUE(io::apply_step(session.value().clay(), step));
+    ASSERT_TRUE(io::apply_step(session.value().sculpture(), step));
     session.value().record(step);
     ASSERT_TRUE(session.value().flush());
   }

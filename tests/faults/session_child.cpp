@@ -53,7 +53,7 @@ void live(Session& session, unsigned seed, int pipe, const std::filesystem::path
       static_cast<void>(session.save().ok());  // may fail as the disk does; work goes on
       continue;
     }
-    if (!argil::io::apply_step(session.clay(), *step)) continue;  // nothing to undo
+    if (!argil::io::apply_step(session.sculpture(), *step)) continue;  // nothing to undo
     session.record(*step);
     ++done;
     // Sometimes several wait for the disk at once.

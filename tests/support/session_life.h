@@ -89,10 +89,40 @@ inline Operation any_operation(std::mt19937& random) {
   }
 }
 
+/// Of a few pieces that may be there or not: what cannot be is refused.
+inline PieceEdit any_piece_edit(std::mt19937& random) {
+  const auto name = [&] { return std::string(random() % 2 == 0 ? "Clay" : "Other"); };
+  switch (random() % 6) {
+    case 0:
+      return SelectPiece{name()};
+    case 1:
+      return CopyPiece{name(), "Other"};
+    case 2:
+      return RemovePiece{"Other"};
+    case 3: {
+      ChangePiece change{.name = name()};
+      change.placement = Placement{any_place(random) * 3.0, {1.0, any_number(random), 0.3, 0.1}};
+      change.is_visible = random() % 2 == 0;
+      return change;
+    }
+    case 4:
+      return MergePiece{name(), name(), CombineKind::unite, random() % 2 == 0};
+    default: {
+      const Combine solid = any_combination(random);
+      AddPiece add;
+      add.look.name = "Other";
+      add.look.placement.position_mm = solid.placement.position_mm;
+      add.clay = solid.clay;
+      add.mesh = solid.mesh;
+      return add;
+    }
+  }
+}
+
 /// What is done at a turn: a step, or nothing, which means: save the project.
 inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
   std::mt19937 random(seed * 1000U + static_cast<unsigned>(turn));
-  switch (random() % 14) {
+  switch (random() % 17) {
     case 0:
       return std::nullopt;
     case 1:
@@ -112,6 +142,10 @@ inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
       held.tool.action = Action::mask;
       return held;
     }
+    case 9:
+    case 10:
+    case 11:
+      return any_piece_edit(random);
     default:
       return random_dab(random, 6.0);
   }

@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A stored state of the clay and how many steps of the journal it holds.
+/// A stored state of the sculpture and how many steps of the journal it holds.
 struct Stored {
   fs::path file;
-  std::optional<Clay> clay;  ///< once it is loaded
+  std::optional<Sculpture> sculpture;  ///< once it is loaded
   std::size_t steps = 0;
 };
 
@@ -32,10 +32,10 @@ struct Repeated {
 
 /// Applies the journal's steps from `stored.steps` on.
 Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& progress) {
-  if (!stored.clay) {
-    auto clay = load_project(stored.file);
-    if (!clay) return clay.error();
-    stored.clay = std::move(clay).value();
+  if (!stored.sculpture) {
+    auto loaded = load_sculpture(stored.file);
+    if (!loaded) return loaded.error();
+    stored.sculpture = std::move(loaded).value();
   }
   assert(stored.steps <= journal.steps.size());
   const std::size_t first = stored.steps;
@@ -44,7 +44,7 @@ Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& 
     const auto within = [&](std::string_view, double fraction) {
       return !progress || progress("recover", (static_cast<double>(i - first) + fraction) / count);
     };
-    const auto applied = within("", 0.0) ? apply_step(*stored.clay, journal.steps[i], within)
+    const auto applied = within("", 0.0) ? apply_step(*stored.sculpture, journal.steps[i], within)
                                          : Result<StrokeReport>(Error{ErrorKind::interrupted, ""});
     if (applied) continue;
     if (applied.error().kind == ErrorKind::interrupted) {
@@ -60,18 +60,20 @@ Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& 
 /// is passed over: the project alone is enough, the others make it quick or let undo reach behind.
 /// A state that the clay had more than once is there more than once: its bits are the same each
 /// time, but what can be undone or redone from it is not.
-std::vector<Stored> stored_states(const SessionFiles& files, const Journal& journal, Clay project) {
+std::vector<Stored> stored_states(const SessionFiles& files, const Journal& journal,
+                                  Sculpture project) {
   std::vector<Stored> states;
-  const auto add = [&](const fs::path& file, Clay clay) {
-    for (const std::size_t steps : journal.positions_of(hash_text(clay.hash()))) {
+  const auto add = [&](const fs::path& file, Sculpture sculpture) {
+    for (const std::size_t steps : journal.positions_of(hash_text(sculpture.hash()))) {
       states.push_back({file, std::nullopt, steps});
     }
     // Latest first, so that the one tried first need not be loaded again.
-    if (!states.empty() && states.back().file == file) states.back().clay = std::move(clay);
+    if (!states.empty() && states.back().file == file)
+      states.back().sculpture = std::move(sculpture);
   };
   add(files.project, std::move(project));
   for (const fs::path& file : {files.autosave, files.origin}) {
-    if (auto clay = load_project(file)) add(file, std::move(clay).value());
+    if (auto loaded = load_sculpture(file)) add(file, std::move(loaded).value());
   }
   std::stable_sort(states.begin(), states.end(),
                    [](const Stored& a, const Stored& b) { return a.steps > b.steps; });
@@ -99,7 +101,7 @@ void tell(const SessionFiles& files, Recovery& recovery) {
 Result<Recovery> repeat_from_best(const SessionFiles& files, Recovery recovery,
                                   const Progress& progress) {
   const Journal& journal = *recovery.journal;
-  auto states = stored_states(files, journal, std::move(recovery.clay));
+  auto states = stored_states(files, journal, std::move(recovery.sculpture));
   std::optional<std::size_t> best;
   Repeated furthest;
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -110,7 +112,7 @@ Result<Recovery> repeat_from_best(const SessionFiles& files, Recovery recovery,
     best = i;
     furthest = std::move(repeated).value();
   }
-  recovery.clay = *std::move(states[best.value_or(0)].clay);
+  recovery.sculpture = *std::move(states[best.value_or(0)].sculpture);
   recovery.steps = furthest.steps;
   recovery.damage = journal.damage.empty() ? furthest.stopped_by : journal.damage;
   assert(recovery.steps <= journal.steps.size());
@@ -123,16 +125,16 @@ Result<Recovery> recover_once(const SessionFiles& files, const Progress& progres
   // The journal first: should a session end meanwhile, its project is newer, never older.
   auto journal = read_journal(files.journal);
   if (!journal) return journal.error();
-  auto clay = load_project(files.project);
-  if (!clay) return clay.error();
-  Recovery recovery{std::move(clay).value(), std::move(journal).value(), false, 0, 0, {}, {}};
+  auto loaded = load_sculpture(files.project);
+  if (!loaded) return loaded.error();
+  Recovery recovery{std::move(loaded).value(), std::move(journal).value(), false, 0, 0, {}, {}};
   if (!recovery.journal) return recovery;
   Journal& read = *recovery.journal;
   if (read.base_hash.empty() && read.damage.empty()) {
     recovery.journal.reset();  // ended before its first line was whole: nothing was finished
     return recovery;
   }
-  const std::string hash = hash_text(recovery.clay.hash());
+  const std::string hash = hash_text(recovery.sculpture.hash());
   const auto steps = read.position_of(hash);
   if (!steps) {
     recovery.notes.push_back(

@@ -8,7 +8,7 @@
 
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
-#include "argil/engine/clay.h"
+#include "argil/engine/sculpture.h"
 
 #include "project/journal.h"
 #include "project/session_files.h"
@@ -17,7 +17,7 @@ namespace argil::io {
 
 /// A project and what its journal adds. Nothing was written.
 struct Recovery {
-  Clay clay;
+  Sculpture sculpture;
   std::optional<Journal> journal;  ///< none, or one whose steps belong to this project
   bool is_foreign = false;         ///< there is a journal that does not
   std::size_t project_steps = 0;   ///< steps of the journal that the project file holds

@@ -18,7 +18,7 @@
 #include "argil/core/end_slot.h"
 #include "argil/core/hash_text.h"
 #include "argil/core/no_throw.h"
-#include "argil/engine/clay_copy.h"
+#include "argil/engine/sculpture.h"
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
 
@@ -41,8 +41,8 @@ bool is_there(const fs::path& file) {
   return fs::exists(fs::symlink_status(file, error));
 }
 
-std::string mark_of(const Clay& clay, std::size_t steps) {
-  return sealed_line(mark_line({hash_text(clay.hash()), steps}));
+std::string mark_of(const Sculpture& sculpture, std::size_t steps) {
+  return sealed_line(mark_line({hash_text(sculpture.hash()), steps}));
 }
 
 /// A journal nobody can go on with is renamed, together with the state it started from.
@@ -73,10 +73,11 @@ Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep
   return disk_error("write", journal, errno);
 }
 
-/// The journal of a session that these steps were told, sealed and ended by the mark of `clay`;
-/// what the steps work with is stored under its names and added to `solids`. Errors  as save_solid.
-Result<std::string> journal_text(const Journal& told, const Clay& clay, const SessionFiles& files,
-                                 std::set<std::string>& solids) {
+/// The journal of a session that these steps were told, sealed and ended by the mark of
+/// `sculpture`; what the steps work with is stored under its names and added to `solids`. Errors as
+/// save_solid.
+Result<std::string> journal_text(const Journal& told, const Sculpture& sculpture,
+                                 const SessionFiles& files, std::set<std::string>& solids) {
   std::string text = sealed_line(header_line({std::nullopt, told.base_hash})) + "\n";
   for (const ScriptStep& step : told.steps) {
     const auto solid = solid_of(step);
@@ -87,7 +88,7 @@ Result<std::string> journal_text(const Journal& told, const Clay& clay, const Se
     }
     text += sealed_line(step_line(step, name)) + "\n";
   }
-  return text + mark_of(clay, told.steps.size()) + "\n";
+  return text + mark_of(sculpture, told.steps.size()) + "\n";
 }
 
 /// What save_as has written under the other name.
@@ -101,16 +102,16 @@ struct WrittenAs {
 
 /// All files of a session under another name. The project is the last that takes room; until the
 /// journal has its name, too, the others beside the project mean nothing.
-Result<void> write_told(const SessionFiles& files, const Clay& clay, const Journal& told,
+Result<void> write_told(const SessionFiles& files, const Sculpture& sculpture, const Journal& told,
                         const fs::path& base, WrittenAs& written) {
   if (auto kept = keep_copy(base, files.origin); !kept) return kept;
-  const auto text = journal_text(told, clay, files, written.solids);
+  const auto text = journal_text(told, sculpture, files, written.solids);
   if (!text) return text.error();
   auto done = replace_file(files.journal, [&](const fs::path& temporary) -> Result<void> {
     OutputFile out(temporary);
     out.write(text.value());
     if (auto closed = out.close(); !closed) return closed;
-    if (auto saved = save_project(files.project, clay); !saved) return saved;
+    if (auto saved = save_sculpture(files.project, sculpture); !saved) return saved;
     written.has_project = true;
     return {};
   });
@@ -124,11 +125,11 @@ Result<void> write_told(const SessionFiles& files, const Clay& clay, const Journ
 
 struct Session::State {
   State(SessionFiles session_files, ProjectLock project_lock, const SessionOptions& session_options,
-        Clay session_clay)
+        Sculpture session_sculpture)
       : files(std::move(session_files)),
         lock(std::move(project_lock)),
         options(session_options),
-        clay(std::move(session_clay)) {}
+        sculpture(std::move(session_sculpture)) {}
   ~State() { end_autosave(); }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -150,7 +151,7 @@ struct Session::State {
   SessionFiles files;
   ProjectLock lock;
   SessionOptions options;
-  Clay clay;
+  Sculpture sculpture;
   std::vector<std::string> notes;
   std::set<std::string> solids;            // that the disk has; of the journal's thread
   std::vector<EndSlot> taken_back;         // of what is all or nothing
@@ -165,7 +166,7 @@ struct Session::State {
   bool created = false;
   bool saved = false;
 
-  std::optional<ClayCopy> copy;  // of an autosave that has begun
+  std::optional<SculptureCopy> copy;  // of an autosave that has begun
   std::size_t autosaved_steps = 0;
   Clock::time_point autosaved_at = Clock::now();
   std::future<Result<void>> autosave;
@@ -187,7 +188,7 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
     }
     if (auto removed = remove_solids(files, {}); !removed) return removed;
     take_back_when_ended();
-    start_journal(hash_text(clay.hash()), 0);
+    start_journal(hash_text(sculpture.hash()), 0);
     return {};
   }
   const Journal& read = *recovery.journal;
@@ -236,15 +237,20 @@ Result<Session> Session::open(const fs::path& file, const SessionOptions& option
     if (!recovered) return recovered.error();
     Recovery& recovery = recovered.value();
     auto state = std::make_unique<State>(std::move(files), std::move(lock).value(), options,
-                                         std::move(recovery.clay));
+                                         std::move(recovery.sculpture));
     state->notes = std::move(recovery.notes);
-    if (auto ok = state->clay.set_limits(options.limits); !ok) return ok.error();
+    if (auto ok = state->sculpture.set_limits(options.limits); !ok) return ok.error();
     if (auto taken = state->take_over(recovery); !taken) return taken.error();
     return Session(std::move(state));
   });
 }
 
 Result<Session> Session::create(const fs::path& file, Clay clay, const SessionOptions& options) {
+  return create(file, Sculpture(std::move(clay)), options);
+}
+
+Result<Session> Session::create(const fs::path& file, Sculpture sculpture,
+                                const SessionOptions& options) {
   return no_throw(file.string(), [&]() -> Result<Session> {
     SessionFiles files = session_files(file);
     auto lock = ProjectLock::take(files.lock, file);
@@ -253,13 +259,14 @@ Result<Session> Session::create(const fs::path& file, Clay clay, const SessionOp
       return Error{ErrorKind::bad_input, quoted_name(file) + " exists; open it instead"};
     }
     auto state = std::make_unique<State>(std::move(files), std::move(lock).value(), options,
-                                         std::move(clay));
+                                         std::move(sculpture));
     if (auto aside = put_aside(state->files, "foreign", state->notes); !aside) return aside.error();
-    if (auto saved = save_project(state->files.project, state->clay); !saved) return saved.error();
+    if (auto saved = save_sculpture(state->files.project, state->sculpture); !saved)
+      return saved.error();
     state->created = true;
-    if (auto ok = state->clay.set_limits(options.limits); !ok) return ok.error();
+    if (auto ok = state->sculpture.set_limits(options.limits); !ok) return ok.error();
     state->take_back_when_ended();
-    state->start_journal(hash_text(state->clay.hash()), 0);
+    state->start_journal(hash_text(state->sculpture.hash()), 0);
     return Session(std::move(state));
   });
 }
@@ -269,7 +276,8 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
-Clay& Session::clay() noexcept { return state_->clay; }
+Clay& Session::clay() noexcept { return state_->sculpture.clay(); }
+Sculpture& Session::sculpture() noexcept { return state_->sculpture; }
 std::int64_t Session::recovered_steps() const noexcept { return state_->recovered; }
 const std::vector<std::string>& Session::notes() const noexcept { return state_->notes; }
 std::size_t Session::step_count() const noexcept { return state_->steps; }
@@ -328,7 +336,7 @@ Result<void> Session::problem() const {
 /// Begins a copy when one is due, copies its next piece, hands a complete one to a thread. After a
 /// slow step one is due at once and copied whole: that is a small part of what the step took.
 void Session::State::autosave_a_little(bool slow_step) {
-  if (options.autosave_steps == 0 || clay.is_stroke_open()) return;
+  if (options.autosave_steps == 0 || sculpture.clay().is_stroke_open()) return;
   if (autosave.valid()) {
     if (autosave.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
     end_autosave();
@@ -339,20 +347,20 @@ void Session::State::autosave_a_little(bool slow_step) {
                      steps - autosaved_steps >= static_cast<std::size_t>(options.autosave_steps) ||
                      since.count() >= options.autosave_seconds;
     if (!due) return;
-    copy.emplace(clay);
+    copy.emplace(sculpture);
   }
-  const std::size_t most = slow_step ? ClayCopy::kAllLeaves : options.autosave_leaves;
-  if (!copy->advance(clay, most)) return;
+  const std::size_t most = slow_step ? SculptureCopy::kAllLeaves : options.autosave_leaves;
+  if (!copy->advance(sculpture, most)) return;
   autosaved_steps = steps;
   autosaved_at = Clock::now();
   autosave =
       std::async(std::launch::async, [this, after = steps, copied = std::move(*copy)]() mutable {
         return no_throw(files.autosave.string(), [&]() -> Result<void> {
-          const Clay clay_then = std::move(copied).take();
+          const Sculpture then = std::move(copied).take();
           // The mark first: an autosave that the journal does not know would be of no use.
-          journal->push_mark(mark_of(clay_then, after));
+          journal->push_mark(mark_of(then, after));
           if (auto flushed = journal->flush(); !flushed) return flushed;
-          return save_project(files.autosave, clay_then);
+          return save_sculpture(files.autosave, then);
         });
       });
   copy.reset();
@@ -376,10 +384,10 @@ Result<void> Session::State::save(bool keep_origin) {
   if (keep_origin && !is_there(files.origin)) {
     if (auto kept = keep_copy(files.project, files.origin); !kept) return kept;
   }
-  journal->push_mark(mark_of(clay, steps));
+  journal->push_mark(mark_of(sculpture, steps));
   if (auto flushed = journal->flush(); !flushed) return flushed;
   // The mark before the project: a crash between the two leaves a journal that knows both states.
-  if (auto replaced = save_project(files.project, clay); !replaced) return replaced;
+  if (auto replaced = save_sculpture(files.project, sculpture); !replaced) return replaced;
   saved_steps = steps;
   saved = true;
   return {};
@@ -459,7 +467,7 @@ Result<WrittenAs> Session::State::write_as(const SessionFiles& to) {
   Result<void> done;
   if (steps > 0) {
     const auto all = told();
-    if (all) done = write_told(to, clay, all.value(), base(), written);
+    if (all) done = write_told(to, sculpture, all.value(), base(), written);
     if (all && done) return written;
     written.undo_lost = all ? done.error().message : all.error().message;
   }
@@ -468,7 +476,7 @@ Result<WrittenAs> Session::State::write_as(const SessionFiles& to) {
   static_cast<void>(remove_solids(to, {}).ok());
   written.solids.clear();
   if (written.has_project) return written;
-  if (done) done = save_project(to.project, clay);
+  if (done) done = save_sculpture(to.project, sculpture);
   if (!done) return done.error();
   return written;
 }
@@ -476,7 +484,7 @@ Result<WrittenAs> Session::State::write_as(const SessionFiles& to) {
 /// Begins with the files that save_as has written, as after a save.
 void Session::State::go_on(const WrittenAs& written, std::size_t done_steps) {
   saved = true;
-  if (written.journal_bytes == 0) return start_journal(hash_text(clay.hash()), 0);
+  if (written.journal_bytes == 0) return start_journal(hash_text(sculpture.hash()), 0);
   steps = saved_steps = autosaved_steps = done_steps;
   solids = written.solids;
   start_journal(written.base_hash, written.journal_bytes);
@@ -505,7 +513,7 @@ Result<SavedAs> Session::save_as(const fs::path& file) {
         files, std::move(lock).value(), state_->options,
         // Undo without its journal could not be repeated after a crash: then the clay
         // goes on without.
-        result.keeps_undo ? std::move(state_->clay) : copy_of(state_->clay));
+        result.keeps_undo ? std::move(state_->sculpture) : copy_of(state_->sculpture));
     next->go_on(written.value(), state_->steps);
     std::swap(state_, next);
     if (auto left = next->leave(false); !left) result.notes.push_back(left.error().message);
@@ -518,15 +526,15 @@ Result<SavedAs> Session::save_as(const fs::path& file) {
 Result<std::optional<LeftSteps>> left_steps(const fs::path& file) {
   return no_throw(file.string(), [&]() -> Result<std::optional<LeftSteps>> {
     const SessionFiles files = session_files(file);
-    const auto clay = load_project(files.project);
-    if (!clay) return clay.error();
+    const auto sculpture = load_sculpture(files.project);
+    if (!sculpture) return sculpture.error();
     const auto journal = read_journal(files.journal);
     if (!journal) return journal.error();
     if (!journal.value()) return std::optional<LeftSteps>();
     // A journal of another project is nobody's left steps.
     const std::size_t all = journal.value()->steps.size();
     const std::size_t steps =
-        all - journal.value()->position_of(hash_text(clay.value().hash())).value_or(all);
+        all - journal.value()->position_of(hash_text(sculpture.value().hash())).value_or(all);
     if (steps == 0) return std::optional<LeftSteps>();
     std::error_code error;
     const auto written = fs::last_write_time(files.journal, error);
@@ -575,20 +583,33 @@ Result<OpenedProject> open_project(const fs::path& file, const Progress& progres
     if (!recovered) return recovered.error();
     Recovery& recovery = recovered.value();
     const auto added = static_cast<std::int64_t>(recovery.steps - recovery.project_steps);
-    return OpenedProject{std::move(recovery.clay), added, std::move(recovery.notes)};
+    return OpenedProject{std::move(recovery.sculpture), added, std::move(recovery.notes)};
   });
 }
 
-Result<std::vector<std::string>> replace_project(const fs::path& file, const Clay& clay) {
+namespace {
+
+template <class Save>
+Result<std::vector<std::string>> replace_by(const fs::path& file, Save save) {
   return no_throw(file.string(), [&]() -> Result<std::vector<std::string>> {
     const SessionFiles files = session_files(file);
     const auto lock = ProjectLock::take(files.lock, file);
     if (!lock) return lock.error();
-    if (auto saved = save_project(file, clay); !saved) return saved.error();
+    if (Result<void> saved = save(); !saved) return saved.error();
     std::vector<std::string> notes;
     if (auto aside = put_aside(files, "replaced", notes); !aside) return aside.error();
     return notes;
   });
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> replace_project(const fs::path& file, const Clay& clay) {
+  return replace_by(file, [&] { return save_project(file, clay); });
+}
+
+Result<std::vector<std::string>> replace_project(const fs::path& file, const Sculpture& sculpture) {
+  return replace_by(file, [&] { return save_sculpture(file, sculpture); });
 }
 
 }  // namespace argil::io

@@ -86,33 +86,19 @@ Result<Operation> read_resample(const Fields& fields) {
   return Operation(resample);
 }
 
-Result<void> read_orientation(const Fields& fields, Quat& out) {
-  constexpr const char* kMust = "a quaternion [w, x, y, z] of any length but zero";
-  if (!fields.has("orientation")) return {};
-  const Json& value = fields.at("orientation");
-  if (!value.is_array() || value.size() != 4) return fields.wrong("orientation", kMust);
-  for (const Json& n : value) {
-    if (!n.is_number()) return fields.wrong("orientation", kMust);
-  }
-  out = {value[0].get<double>(), value[1].get<double>(), value[2].get<double>(),
-         value[3].get<double>()};
-  if (out == Quat{0.0, 0.0, 0.0, 0.0}) return fields.wrong("orientation", kMust);
-  return {};
-}
-
 Result<Operation> read_combine(const FileLine& where, const Fields& fields, CombineKind kind,
                                SolidReader& solids) {
   Combine with;
   with.kind = kind;
   auto read = fields.only({"operation", "with", "with_xxh64", "position_mm", "orientation"});
-  if (read) read = fields.triple("position_mm", with.placement.position_mm);
-  if (read) read = read_orientation(fields, with.placement.orientation);
+  if (read) read = read_placement(fields, with.placement);
   if (!read) return read.error();
   const auto name = read_solid_name(fields, "with", "with_xxh64");
   if (!name) return name.error();
-  if (auto ok = solids.operand(name.value(), with); !ok) {
-    return solid_error(where, "with", ok.error());
-  }
+  auto operand = solids.operand(name.value());
+  if (!operand) return solid_error(where, "with", operand.error());
+  with.clay = operand.value().clay;
+  with.mesh = operand.value().mesh;
   return Operation(std::move(with));
 }
 
@@ -163,9 +149,7 @@ OrderedJson json_of(const Combine& with, const SolidName& solid) {
   OrderedJson json = named(kFirstCombination + static_cast<std::size_t>(with.kind));
   json["with"] = solid.file;
   if (!solid.hash.empty()) json["with_xxh64"] = solid.hash;
-  const Quat& q = with.placement.orientation;
-  json["position_mm"] = triple(with.placement.position_mm);
-  json["orientation"] = {q.w, q.x, q.y, q.z};
+  put_placement(json, with.placement);
   return json;
 }
 

@@ -4,13 +4,12 @@
 #include "argil/engine/operation.h"
 
 #include "format/json_fields.h"
+#include "format/piece_look.h"
 #include "script/step_solid.h"
 
 namespace argil::io {
 
 // An operation on the whole clay as a line of a script (docs/files.md).
-
-using OrderedJson = nlohmann::ordered_json;  // written lines keep the order a person reads them in
 
 /// Errors  bad_input naming line and key; disk, memory of the other solid.
 Result<Operation> read_operation(const FileLine& where, const Json& json, SolidReader& solids);

@@ -8,6 +8,7 @@
 #include "format/json_fields.h"
 #include "script/script_line.h"
 #include "script/script_operation.h"
+#include "script/script_piece.h"
 
 namespace argil::io {
 namespace {
@@ -116,6 +117,10 @@ OrderedJson step_json(MaskEdit edit, const SolidName&) {
 
 OrderedJson step_json(const Operation& operation, const SolidName& solid) {
   return operation_json(operation, solid);
+}
+
+OrderedJson step_json(const PieceEdit& edit, const SolidName& solid) {
+  return piece_edit_json(edit, solid);
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
-#include "argil/io/solid_file.h"
 
 #include "file/file_bytes.h"
 #include "file/file_error.h"
@@ -34,11 +33,23 @@ std::optional<Solid> needed_by(const Stroke& stroke) {
 std::optional<Solid> needed_by(HistoryStep) { return std::nullopt; }
 std::optional<Solid> needed_by(MaskEdit) { return std::nullopt; }
 
+/// Of a combination or a new piece.
+template <class Of>
+Solid clay_or_mesh(const Of& of) {
+  if (of.clay != nullptr) return Solid(of.clay);
+  return Solid(of.mesh);
+}
+
 std::optional<Solid> needed_by(const Operation& operation) {
   const auto* with = std::get_if<Combine>(&operation);
   if (with == nullptr) return std::nullopt;
-  if (with->clay != nullptr) return Solid(with->clay);
-  return Solid(with->mesh);
+  return clay_or_mesh(*with);
+}
+
+std::optional<Solid> needed_by(const PieceEdit& edit) {
+  const auto* add = std::get_if<AddPiece>(&edit);
+  if (add == nullptr) return std::nullopt;
+  return clay_or_mesh(*add);
 }
 
 std::string mesh_hash(const TriangleMesh& mesh) {
@@ -148,25 +159,19 @@ Result<std::shared_ptr<const AlphaImage>> SolidReader::alpha(const SolidName& na
   return known = std::move(image).value();
 }
 
-Result<void> SolidReader::operand(const SolidName& name, Combine& with) {
+Result<Operand> SolidReader::operand(const SolidName& name) {
   const Key key{name.file, name.hash};
-  if (!operands_.contains(key)) {
-    const auto path = path_of(name);
-    if (!path) return path.error();
-    const bool as_it_is = !name.hash.empty();
-    auto read = read_operand(path.value(), as_it_is ? Closing::none : Closing::as_import);
-    if (!read) return read.error();
-    Solid solid =
-        read.value().clay != nullptr ? Solid(read.value().clay) : Solid(read.value().mesh);
-    if (auto ok = check_hash(path.value(), name, name_of(solid, "").hash); !ok) return ok;
-    operands_.emplace(key, std::move(solid));
-    files_.insert(name.file);
-  }
-  const Solid& solid = operands_.at(key);
-  if (const auto* clay = std::get_if<std::shared_ptr<const Clay>>(&solid)) with.clay = *clay;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&solid))
-    with.mesh = *mesh;
-  return {};
+  if (const auto known = operands_.find(key); known != operands_.end()) return known->second;
+  const auto path = path_of(name);
+  if (!path) return path.error();
+  const bool as_it_is = !name.hash.empty();
+  auto read = read_operand(path.value(), as_it_is ? Closing::none : Closing::as_import);
+  if (!read) return read.error();
+  const std::string hash = name_of(clay_or_mesh(read.value()), "").hash;
+  if (auto ok = check_hash(path.value(), name, hash); !ok) return ok.error();
+  operands_.emplace(key, read.value());
+  files_.insert(name.file);
+  return read;
 }
 
 }  // namespace argil::io

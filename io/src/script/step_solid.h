@@ -15,12 +15,13 @@
 #include "argil/engine/alpha_image.h"
 #include "argil/engine/operation.h"
 #include "argil/engine/tool_mesh.h"
+#include "argil/io/solid_file.h"
 #include "argil/io/stroke_script.h"
 
 namespace argil::io {
 
-/// The mesh or the image of a tool, or the mesh or clay of a combination: what a step works with
-/// and its line only names.
+/// The mesh or the image of a tool, or the mesh or clay of a combination or a new piece: what a
+/// step works with and its line only names.
 using Solid = std::variant<std::shared_ptr<const TriangleMesh>, std::shared_ptr<const Clay>,
                            std::shared_ptr<const AlphaImage>>;
 
@@ -44,7 +45,7 @@ Result<void> save_solid(const std::filesystem::path& file, const Solid& solid);
 /// Reads what the lines of a script name, each file once.
 ///
 /// With a hash, the file must hold just that and is taken as it is. Without, the mesh of a
-/// combination is closed first, as `argil import` does.
+/// combination or a piece is closed first, as `argil import` does.
 /// Errors  bad_input: not there, not readable as what it is, another content than the hash says;
 ///         of a tool's mesh also when it is open. disk, memory: what is there could not be read.
 class SolidReader {
@@ -53,7 +54,8 @@ class SolidReader {
 
   Result<std::shared_ptr<const ToolMesh>> tool_mesh(const SolidName& name);
   Result<std::shared_ptr<const AlphaImage>> alpha(const SolidName& name);
-  Result<void> operand(const SolidName& name, Combine& with);
+  /// A clay or a mesh.
+  Result<Operand> operand(const SolidName& name);
 
   /// Every file that was named and read.
   const std::set<std::string>& files() const noexcept { return files_; }
@@ -65,7 +67,7 @@ class SolidReader {
   std::filesystem::path folder_;
   std::map<Key, std::shared_ptr<const ToolMesh>> tools_;
   std::map<Key, std::shared_ptr<const AlphaImage>> alphas_;
-  std::map<Key, Solid> operands_;
+  std::map<Key, Operand> operands_;
   std::set<std::string> files_;
 };
 

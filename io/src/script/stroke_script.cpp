@@ -12,6 +12,7 @@
 #include "file/file_bytes.h"
 #include "script/script_line.h"
 #include "script/script_operation.h"
+#include "script/script_piece.h"
 
 namespace argil::io {
 namespace {
@@ -62,12 +63,15 @@ Result<StrokeReport> apply_one(Clay& clay, const Operation& operation, const Pro
   return StrokeReport{};
 }
 
+Error nothing_there(HistoryStep step) {
+  return {ErrorKind::bad_input, step == HistoryStep::undo
+                                    ? "there is nothing to undo; take this line out"
+                                    : "there is nothing to redo; take this line out"};
+}
+
 Result<StrokeReport> apply_one(Clay& clay, HistoryStep step, const Progress&) {
   const bool done = step == HistoryStep::undo ? clay.undo() : clay.redo();
-  if (done) return StrokeReport{};
-  return Error{ErrorKind::bad_input, step == HistoryStep::undo
-                                         ? "there is nothing to undo; take this line out"
-                                         : "there is nothing to redo; take this line out"};
+  return done ? Result<StrokeReport>(StrokeReport{}) : nothing_there(step);
 }
 
 Result<StrokeReport> apply_one(Clay& clay, MaskEdit edit, const Progress&) {
@@ -75,7 +79,35 @@ Result<StrokeReport> apply_one(Clay& clay, MaskEdit edit, const Progress&) {
   return StrokeReport{};
 }
 
+Result<StrokeReport> apply_one(Clay&, const PieceEdit&, const Progress&) {
+  return Error{ErrorKind::bad_input,
+               "pieces belong to a project, and this is a clay alone; take this line out"};
+}
+
+template <class Step>
+Result<StrokeReport> apply_one(Sculpture& sculpture, const Step& step, const Progress& progress) {
+  if (auto free = sculpture.check_unlocked(); !free) return free.error();
+  return apply_one(sculpture.clay(), step, progress);
+}
+
+Result<StrokeReport> apply_one(Sculpture& sculpture, HistoryStep step, const Progress&) {
+  const bool done = step == HistoryStep::undo ? sculpture.undo() : sculpture.redo();
+  return done ? Result<StrokeReport>(StrokeReport{}) : nothing_there(step);
+}
+
+Result<StrokeReport> apply_one(Sculpture& sculpture, const PieceEdit& edit,
+                               const Progress& progress) {
+  if (auto done = sculpture.apply(edit, progress); !done) return done.error();
+  return StrokeReport{};
+}
+
 }  // namespace
+
+Result<StrokeReport> apply_step(Sculpture& sculpture, const ScriptStep& step,
+                                const Progress& progress) {
+  return std::visit([&](const auto& chosen) { return apply_one(sculpture, chosen, progress); },
+                    step);
+}
 
 Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress) {
   return std::visit([&](const auto& chosen) { return apply_one(clay, chosen, progress); }, step);
@@ -84,6 +116,7 @@ Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progre
 Result<void> validate_step(const ScriptStep& step) {
   if (const auto* stroke = std::get_if<Stroke>(&step)) return validate_stroke(*stroke);
   if (const auto* operation = std::get_if<Operation>(&step)) return validate_operation(*operation);
+  if (const auto* edit = std::get_if<PieceEdit>(&step)) return validate_piece_edit(*edit);
   return {};
 }
 

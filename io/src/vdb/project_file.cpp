@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <deque>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -24,7 +25,9 @@
 
 #include "file/file_bytes.h"
 #include "file/file_seal.h"
+#include "vdb/project_header.h"
 #include "vdb/vdb_read.h"
+#include "vdb/vdb_transform.h"
 #include "vdb/vdb_write.h"
 
 namespace argil::io {
@@ -32,52 +35,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPlainFormat = 1;   // written for a clay without a mask; the oldest that is read
-constexpr int kMaskedFormat = 2;  // and with one; the newest that is read
-
-constexpr const char* kMaskName = "mask";
-std::string level_name(int level) { return "surface_" + std::to_string(level); }
-
-double mask_voxel_mm(double finest_voxel_mm) { return storage::kMaskVoxels * finest_voxel_mm; }
-
 // ---- saving ------------------------------------------------------------------------------------
 
-openvdb::MetaMap file_metadata(const Clay& clay, std::uint64_t hash) {
-  openvdb::MetaMap meta;
-  meta.insertMeta("creator", openvdb::StringMetadata("Argil"));
-  const int format = clay.has_mask() ? kMaskedFormat : kPlainFormat;
-  meta.insertMeta("argil_format", openvdb::Int32Metadata(format));
-  meta.insertMeta("argil_units", openvdb::StringMetadata("mm"));
-  meta.insertMeta("argil_levels", openvdb::Int32Metadata(clay.level_count()));
-  meta.insertMeta("argil_voxel_mm", openvdb::DoubleMetadata(clay.options().voxel_mm));
-  meta.insertMeta("argil_tolerance_voxels",
-                  openvdb::DoubleMetadata(clay.options().tolerance_voxels));
-  if (const auto& edge = clay.options().edge_radius_mm) {
-    meta.insertMeta("argil_edge_radius_mm", openvdb::DoubleMetadata(*edge));
-  }
-  meta.insertMeta("argil_hash", openvdb::StringMetadata(hash_text(hash)));
-  return meta;
-}
-
-std::vector<GridToWrite> grids_to_save(const StoredClay& clay) {
-  std::vector<GridToWrite> grids;
+void add_grids(const PieceHeader& piece, const StoredClay& clay, std::vector<GridToWrite>& grids) {
+  const Placement& at = piece.look.placement;
   for (int level = 0; level < clay.level_count(); ++level) {
-    grids.push_back({level_name(level), openvdb::GRID_LEVEL_SET, clay.voxel_mm(level),
+    grids.push_back({piece.level_name(level), openvdb::GRID_LEVEL_SET, clay.voxel_mm(level),
                      clay.band_mm(level),
-                     [&clay, level](LevelVisitor& to) { clay.show_level(level, to); }});
+                     [&clay, level](LevelVisitor& to) { clay.show_level(level, to); }, at});
   }
   if (clay.has_mask()) {
-    grids.push_back({kMaskName, openvdb::GRID_FOG_VOLUME, mask_voxel_mm(clay.voxel_mm(0)),
-                     clay.mask_elsewhere(), [&clay](LevelVisitor& to) { clay.show_mask(to); }});
+    grids.push_back({piece.mask_name(), openvdb::GRID_FOG_VOLUME, piece.mask_voxel_mm(),
+                     clay.mask_elsewhere(), [&clay](LevelVisitor& to) { clay.show_mask(to); }, at});
   }
-  return grids;
+}
+
+Result<void> write_project(const fs::path& file, const ProjectHeader& header,
+                           std::span<const StoredClay> clays, std::uint64_t hash) {
+  assert(clays.size() == header.pieces.size());
+  std::vector<GridToWrite> grids;
+  for (std::size_t n = 0; n < clays.size(); ++n) add_grids(header.pieces[n], clays[n], grids);
+  return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
+    auto saved = write_vdb(temporary, project_metadata(header), hash, grids);
+    if (saved) return seal_file(temporary);
+    if (saved.error().kind != ErrorKind::interrupted) return saved;
+    return Error{ErrorKind::interrupted,
+                 "interrupted while writing '" + file.string() + "'; it is as it was before"};
+  });
 }
 
 // ---- loading -----------------------------------------------------------------------------------
-
-Error refused(const fs::path& file, const std::string& what) {
-  return {ErrorKind::bad_input, "'" + file.string() + "' " + what};
-}
 
 bool contains_text(std::span<const std::byte> bytes, std::string_view text) {
   const auto* begin = reinterpret_cast<const char*>(bytes.data());
@@ -90,206 +77,202 @@ constexpr std::size_t kHead = 4096;  // the file's metadata stand at its front
 /// What stands before the seal, or why this is no project.
 Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
                                                  std::span<const std::byte> bytes) {
-  if (bytes.empty()) return refused(file, "is empty; give a project that argil saved (NAME.vdb)");
+  if (bytes.empty())
+    return refused_project(file, "is empty; give a project that argil saved (NAME.vdb)");
   const bool vdb = bytes.size() >= kVdbMagic.size() &&
                    std::equal(kVdbMagic.begin(), kVdbMagic.end(), bytes.begin(),
                               [](unsigned char a, std::byte b) { return std::byte{a} == b; });
   if (!vdb) {
-    return refused(file,
-                   "is not a VDB file; give a project that argil saved, or make one of a mesh "
-                   "with 'argil import'");
+    return refused_project(
+        file,
+        "is not a VDB file; give a project that argil saved, or make one of a mesh "
+        "with 'argil import'");
   }
   if (const auto body = unsealed(bytes)) return *body;
   if (contains_text(bytes.first(std::min(kHead, bytes.size())), "argil_format")) {
-    return refused(file, "is damaged: its " + std::to_string(bytes.size()) +
-                             " bytes do not match their checksum (cut off, changed, or saved again "
-                             "by another program); use an older copy");
+    return refused_project(
+        file, "is damaged: its " + std::to_string(bytes.size()) +
+                  " bytes do not match their checksum (cut off, changed, or saved again "
+                  "by another program); use an older copy");
   }
-  return refused(file,
-                 "is a VDB but not a project of Argil, or cut off near its beginning; give a "
-                 "file that argil saved");
+  return refused_project(
+      file,
+      "is a VDB but not a project of Argil, or cut off near its beginning; give a "
+      "file that argil saved");
 }
 
-/// What the file says about itself.
-struct ProjectHeader {
-  ClayOptions options;
-  int levels = 0;
-  bool has_mask = false;
-  std::string hash;
-};
-
-template <class T>
-bool read_meta(const openvdb::MetaMap& meta, const char* name, T& out) {
-  const auto found = meta.getMetadata<openvdb::TypedMetadata<T>>(name);
-  if (found) out = found->value();
-  return found != nullptr;
-}
-
-Result<ProjectHeader> read_header(const fs::path& file, const openvdb::MetaMap& meta) {
-  std::int32_t format = 0;
-  if (!read_meta(meta, "argil_format", format)) {
-    return refused(file, "has no 'argil_format'; give a file that argil saved");
-  }
-  if (format < kPlainFormat) {
-    return refused(file, "has format " + std::to_string(format) +
-                             ", which no argil ever wrote; use an older copy");
-  }
-  if (format > kMaskedFormat) {
-    return refused(file, "has format " + std::to_string(format) + " and this program reads up to " +
-                             std::to_string(kMaskedFormat) + "; open it with a newer argil");
-  }
-  ProjectHeader header;
-  std::int32_t levels = 0;
-  const bool complete =
-      read_meta(meta, "argil_levels", levels) &&
-      read_meta(meta, "argil_voxel_mm", header.options.voxel_mm) &&
-      read_meta(meta, "argil_tolerance_voxels", header.options.tolerance_voxels) &&
-      read_meta(meta, "argil_hash", header.hash);
-  if (!complete || levels < 1 || levels > storage::kMostLevels) {
-    return refused(file,
-                   "lacks a piece of its description (levels, voxel size, tolerance, hash); "
-                   "use an older copy");
-  }
-  if (double edge = 0.0; meta["argil_edge_radius_mm"]) {
-    if (!read_meta(meta, "argil_edge_radius_mm", edge)) {
-      return refused(file, "has an 'argil_edge_radius_mm' that is no number; use an older copy");
-    }
-    header.options.edge_radius_mm = edge;
-  }
-  if (auto valid = validate_options(header.options); !valid) {
-    return refused(file, "says what no clay can be: " + valid.error().message);
-  }
-  header.levels = levels;
-  header.has_mask = format == kMaskedFormat;
-  return header;
-}
-
-/// Hands each grid that the file's description promises to the clay that is made of them, and
-/// keeps what it learned of it. What is wrong comes out at the end, in one order.
-class ProjectReader {
+/// Hands the grids of one piece to the clay that is made of them, and keeps what it learned.
+class PieceReader {
  public:
-  explicit ProjectReader(const fs::path& file) : file_(file) {}
+  PieceReader(const fs::path& file, const PieceHeader& header)
+      : file_(file), header_(header), builder_(header.options, header.levels) {}
 
-  Result<Clay> read(std::span<const std::byte> body);
+  /// Null where the grid is none of this piece's, or does not fit.
+  LevelSink* sink_for(const GridHead& head);
+  /// What is wrong, in one order; else the clay with its hash.
+  Result<BuiltClay> finish(const VdbContent& content) &&;
 
  private:
-  LevelSink* sink_for(const openvdb::MetaMap& meta, const GridHead& head);
-  void take_header(const openvdb::MetaMap& meta);
   Result<void> check_grid(const VdbContent& content, const std::string& name) const;
   Result<void> check_level(const VdbContent& content, int level) const;
   Result<void> check_mask(const VdbContent& content) const;
   Result<void> check_nesting() const;
-  Result<Clay> finish(const VdbContent& content);
+  bool is_placed(const GridHead& head, double voxel_mm) const {
+    return *head.transform == *grid_transform(voxel_mm, header_.look.placement);
+  }
 
   const fs::path& file_;
-  std::optional<Result<ProjectHeader>> header_;
-  std::optional<ClayBuilder> builder_;  ///< once the header is sound
-  /// Of the first grid of each name: whether it has the voxel size and background that its level
+  const PieceHeader& header_;
+  ClayBuilder builder_;
+  /// Of the first grid of each name: whether it has the transform and background that its level
   /// has, so that it was taken.
   std::map<std::string, bool> fits_;
 };
 
-void ProjectReader::take_header(const openvdb::MetaMap& meta) {
-  if (header_) return;
-  header_ = read_header(file_, meta);
-  if (!*header_) return;
-  const ProjectHeader& header = header_->value();
-  builder_.emplace(header.options, header.levels);
-}
-
 /// The first grid of a name counts, as far as it fits.
-LevelSink* ProjectReader::sink_for(const openvdb::MetaMap& meta, const GridHead& head) {
-  take_header(meta);
-  if (!builder_) return nullptr;
+LevelSink* PieceReader::sink_for(const GridHead& head) {
+  const bool is_mask = header_.has_mask && head.name == header_.mask_name();
+  int level = 0;
+  while (!is_mask && level < header_.levels && head.name != header_.level_name(level)) ++level;
+  if (level == header_.levels) return nullptr;
   const auto [entry, is_first] = fits_.try_emplace(head.name, false);
   if (!is_first) return nullptr;
   bool& fits = entry->second;
-  const ProjectHeader& header = header_->value();
-  if (header.has_mask && head.name == kMaskName) {
-    const auto transform =
-        openvdb::math::Transform::createLinearTransform(mask_voxel_mm(header.options.voxel_mm));
-    fits = *head.transform == *transform;
-    return fits ? &builder_->mask(head.background) : nullptr;
+  if (is_mask) {
+    fits = is_placed(head, header_.mask_voxel_mm());
+    return fits ? &builder_.mask(head.background) : nullptr;
   }
-  for (int level = 0; level < header.levels; ++level) {
-    if (head.name != level_name(level)) continue;
-    const auto transform =
-        openvdb::math::Transform::createLinearTransform(builder_->voxel_mm(level));
-    fits = head.background == builder_->band_mm(level) && *head.transform == *transform;
-    return fits ? &builder_->level(level) : nullptr;
-  }
-  return nullptr;
+  fits = head.background == builder_.band_mm(level) && is_placed(head, builder_.voxel_mm(level));
+  return fits ? &builder_.level(level) : nullptr;
 }
 
 /// Success where there is a grid of that name that was read; the error names what it is instead.
-Result<void> ProjectReader::check_grid(const VdbContent& content, const std::string& name) const {
+Result<void> PieceReader::check_grid(const VdbContent& content, const std::string& name) const {
   for (const NamedGrid& named : content.grids) {
     if (named.name != name) continue;
     if (named.is_read) return {};
-    return refused(file_, "has a grid '" + name + "' that is not of type float on cubic voxels");
+    return refused_project(file_,
+                           "has a grid '" + name + "' that is not of type float on cubic voxels");
   }
-  if (name == kMaskName) {
-    return refused(file_, "has no grid 'mask', which its format holds; use an older copy");
+  if (name == header_.mask_name()) {
+    return refused_project(file_,
+                           "has no grid '" + name + "', which its format holds; use an older copy");
   }
-  return refused(file_, "has no grid '" + name + "'; it says it has " +
-                            std::to_string(header_->value().levels) + " levels; use an older copy");
+  return refused_project(file_, "has no grid '" + name + "'; it says it has " +
+                                    std::to_string(header_.levels) + " levels; use an older copy");
 }
 
-Result<void> ProjectReader::check_level(const VdbContent& content, int level) const {
-  const std::string name = level_name(level);
+Result<void> PieceReader::check_level(const VdbContent& content, int level) const {
+  const std::string name = header_.level_name(level);
   if (auto there = check_grid(content, name); !there) return there;
   if (!fits_.at(name)) {
-    return refused(file_, "has a grid '" + name + "' of another voxel size than it says");
+    return refused_project(file_,
+                           "has a grid '" + name + "' of another voxel size or place than it says");
   }
-  if (builder_->is_sound(level)) return {};
-  return refused(file_, "has a grid '" + name +
-                            "' with values beyond its band, or out of reach; use an older copy");
+  if (builder_.is_sound(level)) return {};
+  return refused_project(file_, "has a grid '" + name +
+                                    "' with values beyond its band, or out of reach; use an older "
+                                    "copy");
 }
 
-Result<void> ProjectReader::check_mask(const VdbContent& content) const {
-  if (auto there = check_grid(content, kMaskName); !there) return there;
-  if (!fits_.at(kMaskName)) {
-    return refused(file_, "has a grid 'mask' of another voxel size; use an older copy");
+Result<void> PieceReader::check_mask(const VdbContent& content) const {
+  const std::string name = header_.mask_name();
+  if (auto there = check_grid(content, name); !there) return there;
+  if (!fits_.at(name)) {
+    return refused_project(
+        file_, "has a grid '" + name + "' of another voxel size or place; use an older copy");
   }
-  if (builder_->is_mask_sound()) return {};
-  return refused(file_, "has a grid 'mask' that holds no fractions from 0 to 1; use an older copy");
+  if (builder_.is_mask_sound()) return {};
+  return refused_project(
+      file_, "has a grid '" + name + "' that holds no fractions from 0 to 1; use an older copy");
 }
 
 /// What works on a clay counts on the coarser leaves that a finer one requires.
-Result<void> ProjectReader::check_nesting() const {
-  const auto problem = builder_->nesting_problem();
+Result<void> PieceReader::check_nesting() const {
+  const auto problem = builder_.nesting_problem();
   if (!problem) return {};
   std::string at = "(" + std::to_string(problem->origin[0]) + ", ";
   at.append(std::to_string(problem->origin[1])).append(", ");
   at.append(std::to_string(problem->origin[2])).append(")");
-  return refused(file_, "has levels that do not nest: the leaf at " + at + " of level " +
-                            std::to_string(problem->level) + " lacks " +
-                            (problem->lacks_parent ? "its parent" : "the parent of a neighbour") +
-                            " in level " + std::to_string(problem->level + 1) +
-                            "; use an older copy");
+  return refused_project(
+      file_, "has levels that do not nest: the leaf at " + at + " of level " +
+                 std::to_string(problem->level) + " lacks " +
+                 (problem->lacks_parent ? "its parent" : "the parent of a neighbour") +
+                 " in level " + std::to_string(problem->level + 1) + "; use an older copy");
 }
 
-Result<Clay> ProjectReader::finish(const VdbContent& content) {
-  take_header(content.meta);  // where there is no grid that would have asked for it
-  if (!*header_) return header_->error();
-  const ProjectHeader& header = header_->value();
-  for (int level = 0; level < header.levels; ++level) {
+Result<BuiltClay> PieceReader::finish(const VdbContent& content) && {
+  for (int level = 0; level < header_.levels; ++level) {
     if (auto sound = check_level(content, level); !sound) return sound.error();
   }
-  if (header.has_mask) {
+  if (header_.has_mask) {
     if (auto sound = check_mask(content); !sound) return sound.error();
   }
   if (auto nested = check_nesting(); !nested) return nested.error();
-  assert(builder_.has_value());
-  BuiltClay built = std::move(*builder_).finish();
-  if (const std::string hash = hash_text(built.hash); hash != header.hash) {
-    return refused(file_, "holds a clay with hash " + hash + " but says " + header.hash +
-                              "; use an older copy");
-  }
-  return std::move(built.clay);
+  return std::move(builder_).finish();
 }
 
-Result<Clay> ProjectReader::read(std::span<const std::byte> body) {
+/// Hands each grid that the file's description promises to its piece.
+class ProjectReader {
+ public:
+  explicit ProjectReader(const fs::path& file) : file_(file) {}
+
+  Result<Sculpture> read(std::span<const std::byte> body);
+
+ private:
+  LevelSink* sink_for(const openvdb::MetaMap& meta, const GridHead& head);
+  void take_header(const openvdb::MetaMap& meta);
+  Result<Sculpture> finish(const VdbContent& content);
+  Result<void> check_hash(std::uint64_t hash) const;
+
+  const fs::path& file_;
+  std::optional<Result<ProjectHeader>> header_;
+  std::deque<PieceReader> pieces_;  ///< once the header is sound; they stay where they are
+};
+
+void ProjectReader::take_header(const openvdb::MetaMap& meta) {
+  if (header_) return;
+  header_ = read_project_header(file_, meta);
+  if (!*header_) return;
+  for (const PieceHeader& piece : header_->value().pieces) pieces_.emplace_back(file_, piece);
+}
+
+LevelSink* ProjectReader::sink_for(const openvdb::MetaMap& meta, const GridHead& head) {
+  take_header(meta);
+  for (PieceReader& piece : pieces_) {
+    if (LevelSink* sink = piece.sink_for(head)) return sink;
+  }
+  return nullptr;
+}
+
+Result<void> ProjectReader::check_hash(std::uint64_t hash) const {
+  const std::string& told = header_->value().hash;
+  if (hash_text(hash) == told) return {};
+  return refused_project(file_, "holds a clay with hash " + hash_text(hash) + " but says " + told +
+                                    "; use an older copy");
+}
+
+Result<Sculpture> ProjectReader::finish(const VdbContent& content) {
+  take_header(content.meta);  // where there is no grid that would have asked for it
+  if (!*header_) return header_->error();
+  ProjectHeader& header = header_->value();
+  std::vector<Sculpture::ReadyPiece> ready;
+  std::uint64_t hash = 0;
+  for (std::size_t n = 0; n < pieces_.size(); ++n) {
+    auto built = std::move(pieces_[n]).finish(content);
+    if (!built) return built.error();
+    hash = built.value().hash;
+    ready.push_back({header.pieces[n].look, std::move(built.value().clay)});
+  }
+  auto sculpture = Sculpture::of(std::move(ready), header.active);
+  if (!sculpture) return refused_project(file_, "cannot be: " + sculpture.error().message);
+  // That of a clay alone is known already.
+  if (!sculpture.value().is_plain()) hash = sculpture.value().hash();
+  if (auto same = check_hash(hash); !same) return same.error();
+  return sculpture;
+}
+
+Result<Sculpture> ProjectReader::read(std::span<const std::byte> body) {
   const auto content = read_vdb(body, [&](const openvdb::MetaMap& meta, const GridHead& head) {
     return sink_for(meta, head);
   });
@@ -297,7 +280,17 @@ Result<Clay> ProjectReader::read(std::span<const std::byte> body) {
   if (content.error().kind == ErrorKind::interrupted) {
     return Error{ErrorKind::interrupted, "interrupted while opening '" + file_.string() + "'"};
   }
-  return refused(file_, "cannot be read: it " + content.error().message + "; use an older copy");
+  return refused_project(file_,
+                         "cannot be read: it " + content.error().message + "; use an older copy");
+}
+
+std::string names_of(const Sculpture& sculpture) {
+  constexpr std::size_t kMostShown = 200;
+  std::string names;
+  for (std::size_t n = 0; n < sculpture.piece_count() && names.size() < kMostShown; ++n) {
+    names.append(names.empty() ? "'" : ", '").append(sculpture.look(n).name).append("'");
+  }
+  return names;
 }
 
 }  // namespace
@@ -305,15 +298,21 @@ Result<Clay> ProjectReader::read(std::span<const std::byte> body) {
 Result<void> save_project(const fs::path& file, const Clay& clay) {
   return no_throw(file.string(), [&]() -> Result<void> {
     openvdb::initialize();
-    const StoredClay stored(clay);
+    const std::array clays{StoredClay(clay)};
     const std::uint64_t hash = clay.hash();
-    return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
-      auto saved = write_vdb(temporary, file_metadata(clay, hash), hash, grids_to_save(stored));
-      if (saved) return seal_file(temporary);
-      if (saved.error().kind != ErrorKind::interrupted) return saved;
-      return Error{ErrorKind::interrupted,
-                   "interrupted while writing '" + file.string() + "'; it is as it was before"};
-    });
+    return write_project(file, header_of(clay, hash), clays, hash);
+  });
+}
+
+Result<void> save_sculpture(const fs::path& file, const Sculpture& sculpture) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    openvdb::initialize();
+    std::vector<StoredClay> clays;
+    for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
+      clays.emplace_back(sculpture.clay(n));
+    }
+    const std::uint64_t hash = sculpture.hash();
+    return write_project(file, header_of(sculpture, hash), clays, hash);
   });
 }
 
@@ -328,8 +327,8 @@ bool holds_project(const fs::path& file) {
          read.find("argil_format") != std::string_view::npos;
 }
 
-Result<Clay> load_project(const fs::path& file) {
-  return no_throw(file.string(), [&]() -> Result<Clay> {
+Result<Sculpture> load_sculpture(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<Sculpture> {
     const auto bytes = read_file_bytes(file);
     if (!bytes) return bytes.error();
     const auto body = checked_bytes(file, bytes.value());
@@ -337,6 +336,14 @@ Result<Clay> load_project(const fs::path& file) {
     openvdb::initialize();
     return ProjectReader(file).read(body.value());
   });
+}
+
+Result<Clay> load_project(const fs::path& file) {
+  auto sculpture = load_sculpture(file);
+  if (!sculpture) return sculpture.error();
+  if (sculpture.value().piece_count() == 1) return std::move(sculpture.value()).take_clay();
+  return refused_project(file, "has several pieces, " + names_of(sculpture.value()) +
+                                   ", where one clay is wanted; merge them, or save one alone");
 }
 
 }  // namespace argil::io

@@ -24,6 +24,7 @@
 
 #include "file/load_bytes.h"
 #include "vdb/vdb_layout.h"
+#include "vdb/vdb_transform.h"
 #include "vdb/vdb_tree.h"
 
 namespace argil::io {
@@ -428,25 +429,14 @@ openvdb::MetaMap take_metadata(Cursor& in) {
   return meta;
 }
 
-/// Of cubic voxels, whose map has this one form; null for another.
+/// Of cubic voxels; null for others.
 openvdb::math::Transform::Ptr take_transform(Cursor& in) {
-  constexpr std::size_t kNumbers = 15;  // the scale, and what follows from it
-  if (in.text() != "UniformScaleMap") return nullptr;
-  const Bytes numbers = in.take(kNumbers * sizeof(double));
+  const std::string name = in.text();
+  const auto bytes = map_bytes(name);
+  if (!bytes) return nullptr;
+  const Bytes numbers = in.take(*bytes);
   if (!in.is_good()) return nullptr;
-  const auto voxel = load<double>(numbers.data());
-  // OpenVDB throws at less than 1.44e-5; no clay has less than kLeastVoxelMm.
-  if (!(voxel >= kLeastVoxelMm && voxel < 1e9)) return nullptr;
-  auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-  std::ostringstream text;
-  transform->write(text);
-  const std::string written = text.str();
-  // All fifteen numbers must follow from the first: others would be taken for cubic voxels of
-  // another size.
-  const bool is_same = written.size() > numbers.size() &&
-                       std::memcmp(written.data() + written.size() - numbers.size(), numbers.data(),
-                                   numbers.size()) == 0;
-  return is_same ? transform : nullptr;
+  return read_map(name, {reinterpret_cast<const char*>(numbers.data()), numbers.size()});
 }
 
 /// False for a grid with other than cubic voxels, which is passed over.

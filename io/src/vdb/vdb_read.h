@@ -18,7 +18,7 @@ namespace argil::io {
 /// What stands before the nodes of a grid.
 struct GridHead {
   std::string name;
-  openvdb::math::Transform::Ptr transform;  ///< of cubic voxels
+  openvdb::math::Transform::Ptr transform;  ///< of cubic voxels, be they turned or moved
   float background = 0.0F;                  ///< finite
 };
 

@@ -22,6 +22,7 @@
 
 #include "file/file_bytes.h"
 #include "vdb/vdb_layout.h"
+#include "vdb/vdb_transform.h"
 #include "vdb/vdb_tree.h"
 
 namespace argil::io {
@@ -359,7 +360,7 @@ void Writer::write_grid(const GridToWrite& grid) {
   put(head, places);  // once more when all are known
   put(head, kCompression);
   const openvdb::MetaMap meta = metadata_of(grid, topology);
-  const auto transform = openvdb::math::Transform::createLinearTransform(grid.voxel_mm);
+  const auto transform = grid_transform(grid.voxel_mm, grid.placement);
   head.append(written([&](std::ostream& to) { meta.writeMeta(to); }));
   head.append(written([&](std::ostream& to) { transform->write(to); }));
   out_.write(head);

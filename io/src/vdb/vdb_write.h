@@ -10,6 +10,7 @@
 #include <openvdb/Types.h>
 
 #include "argil/core/result.h"
+#include "argil/engine/operation.h"
 #include "argil/engine/storage.h"
 
 namespace argil::io {
@@ -21,6 +22,7 @@ struct GridToWrite {
   double voxel_mm = 1.0;
   float background = 0.0F;
   std::function<void(LevelVisitor&)> show;
+  Placement placement = {};  ///< of unit length
 };
 
 /// Writes a file as OpenVDB 10 does (format 224; active values, Blosc), but tells when the disk did

@@ -94,7 +94,7 @@ std::vector<Corners> surface_of(const fs::path& project) {
   const auto opened = io::open_project(project);
   EXPECT_TRUE(opened.ok());
   if (!opened) return {};
-  const TriangleMesh mesh = extract_surface(opened.value().clay);
+  const TriangleMesh mesh = extract_surface(opened.value().sculpture.clay());
   std::vector<Corners> all;
   for (const Triangle& t : mesh.triangles) {
     all.push_back(turned_to_least({rounded(mesh.positions[t[0]]), rounded(mesh.positions[t[1]]),

@@ -66,7 +66,7 @@ class SessionFolder : public testing::Test {
   }
 
   static void sculpt(Session& session, const ScriptStep& step) {
-    const auto done = apply_step(session.clay(), step);
+    const auto done = apply_step(session.sculpture(), step);
     ASSERT_TRUE(done) << done.error().message;
     session.record(step);
   }
@@ -101,7 +101,7 @@ TEST_F(SessionJournal, BringsEveryStrokeBackWithTheSameBits) {
   EXPECT_THAT(folder_.names(), UnorderedElementsAre("piece.vdb", "piece.journal.jsonl"));
   const auto opened = open_project(file());
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), hash_after(4));
+  EXPECT_EQ(opened.value().sculpture.hash(), hash_after(4));
   EXPECT_EQ(opened.value().recovered_steps, 4);
   EXPECT_THAT(joined(opened.value().notes), HasSubstr("'piece.vdb': recovered 4 strokes"));
   Session session = open();
@@ -170,7 +170,7 @@ TEST_F(SessionJournal, KeepsADamagedOneAsideAndUsesWhatIsBefore) {
     ASSERT_TRUE(session.flush());
   }
   EXPECT_EQ(content_of(file("piece.journal.jsonl.damaged-1")), damaged);
-  EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), hash_after(2));
 }
 
 TEST_F(SessionJournal, OfAnotherProjectIsKeptAside) {
@@ -183,7 +183,7 @@ TEST_F(SessionJournal, OfAnotherProjectIsKeptAside) {
   const Clay other = Clay::ball(5.0, {0.4, 0.1}).value();
   ASSERT_TRUE(save_project(file(), other));
   const auto read = open_project(file());
-  EXPECT_EQ(read.value().clay.hash(), other.hash());
+  EXPECT_EQ(read.value().sculpture.hash(), other.hash());
   EXPECT_THAT(joined(read.value().notes), HasSubstr("does not belong to 'piece.vdb'"));
   Session session = open();
   EXPECT_EQ(session.clay().hash(), other.hash());
@@ -244,7 +244,7 @@ TEST_F(SessionSave, LetsUndoReachBehindIt) {
   }
   const auto opened = open_project(file());
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), hash_after(1));
+  EXPECT_EQ(opened.value().sculpture.hash(), hash_after(1));
   Session session = open();
   ASSERT_TRUE(session.close());
   EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb"));
@@ -261,7 +261,7 @@ TEST_F(SessionSave, OfAStateThatWasThereBeforeLetsRedoReachBehindIt) {
   }
   const auto opened = open_project(file());
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), hash_after(1));
+  EXPECT_EQ(opened.value().sculpture.hash(), hash_after(1));
 }
 
 TEST_F(SessionSave, RepeatsOnlyWhatCameAfter) {
@@ -274,7 +274,7 @@ TEST_F(SessionSave, RepeatsOnlyWhatCameAfter) {
   }
   const auto opened = open_project(file());
   EXPECT_EQ(opened.value().recovered_steps, 2);
-  EXPECT_EQ(opened.value().clay.hash(), hash_after(5));
+  EXPECT_EQ(opened.value().sculpture.hash(), hash_after(5));
 }
 
 TEST_F(SessionSave, DiscardLeavesTheFilesAsTheyWere) {
@@ -288,7 +288,7 @@ TEST_F(SessionSave, DiscardLeavesTheFilesAsTheyWere) {
   sculpt(session, 2, 2);
   ASSERT_TRUE(session.discard());
   EXPECT_EQ(content_of(file("piece.journal.jsonl")), journal);
-  EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), hash_after(2));
   fs::remove(file());
   fs::remove(file("piece.journal.jsonl"));
   Session fresh = create();
@@ -304,7 +304,7 @@ TEST_F(SessionSave, DiscardForgetsWhatCameAfterIt) {
   sculpt(session, 2, 2);
   ASSERT_TRUE(session.discard());
   EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb"));
-  EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), hash_after(2));
 }
 
 using SessionSaveAs = SessionFolder;
@@ -330,7 +330,7 @@ TEST_F(SessionSaveAs, GoesOnUnderTheNameAndLeavesTheOldProjectAsItWasSaved) {
   }
   const auto opened = open_project(file("other.vdb"));
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), hash_after(2));
+  EXPECT_EQ(opened.value().sculpture.hash(), hash_after(2));
   auto session = Session::open(file("other.vdb"));
   ASSERT_TRUE(session && session.value().close());
   EXPECT_THAT(folder_.names(), UnorderedElementsAre("piece.vdb", "other.vdb"));
@@ -344,7 +344,7 @@ TEST_F(SessionSaveAs, LeavesRecoveredStepsOfTheOldProjectBesideIt) {
   Session session = open();
   sculpt(session, 2, 1);
   ASSERT_TRUE(session.save_as(file("other.vdb")));
-  EXPECT_EQ(open_project(file()).value().clay.hash(), hash_after(2));
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), hash_after(2));
   EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(3));
   ASSERT_TRUE(session.discard());
   EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(3));
@@ -369,7 +369,7 @@ TEST_F(SessionSaveAs, TakesAlongWhatStepsWorkWith) {
     EXPECT_THAT(joined(folder_.names()),
                 AllOf(HasSubstr(".other.solid-"), testing::Not(HasSubstr(".piece.solid-"))));
   }
-  EXPECT_EQ(open_project(file("other.vdb")).value().clay.hash(), hash);
+  EXPECT_EQ(open_project(file("other.vdb")).value().sculpture.hash(), hash);
 }
 
 TEST_F(SessionSaveAs, KeepsTheLeftStepsOfWhatItReplacesAndTouchesNoneInASession) {
@@ -406,7 +406,7 @@ TEST_F(SessionSaveAs, SavesWithoutUndoWhereTheStepsAreGone) {
     sculpt(session, 3, 1);
     ASSERT_TRUE(session.flush());
   }
-  EXPECT_EQ(open_project(file("other.vdb")).value().clay.hash(), hash_after(4));
+  EXPECT_EQ(open_project(file("other.vdb")).value().sculpture.hash(), hash_after(4));
 }
 
 TEST_F(SessionSaveAs, ThatCannotBeWrittenChangesNothing) {
@@ -442,9 +442,9 @@ TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {
   const auto steps = static_cast<unsigned>(script.value().steps.size());
   const auto opened = open_project(file());
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), hash_after(steps));
+  EXPECT_EQ(opened.value().sculpture.hash(), hash_after(steps));
   EXPECT_EQ(opened.value().recovered_steps, steps);
-  EXPECT_LT(opened.value().clay.undo_depth(), static_cast<int>(steps)) << "all was repeated";
+  EXPECT_LT(opened.value().sculpture.clay().undo_depth(), static_cast<int>(steps)) << "all was repeated";
 }
 
 Stroke mask_stroke(unsigned n) {

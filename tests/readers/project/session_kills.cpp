@@ -93,15 +93,15 @@ Death live_and_die(const fs::path& project, const Fate& fate) {
   return death;
 }
 
-/// The hash after 0, 1, 2, ... steps of a life that starts from `clay`.
-std::vector<std::uint64_t> hashes_of(Clay clay, const Fate& fate) {
-  std::vector<std::uint64_t> hashes{clay.hash()};
+/// The hash after 0, 1, 2, ... steps of a life that starts from `sculpture`.
+std::vector<std::uint64_t> hashes_of(Sculpture sculpture, const Fate& fate) {
+  std::vector<std::uint64_t> hashes{sculpture.hash()};
   const auto live = [&](const ScriptStep& step) {
-    const int depth = clay.undo_depth();
-    const auto done = apply_step(clay, step);
+    const int depth = sculpture.undo_depth();
+    const auto done = apply_step(sculpture, step);
     // A stroke that meets nothing is no undo step, and a worker does not tell it.
-    const bool told = fate.way != std::string("hand") || clay.undo_depth() > depth;
-    if (done && told) hashes.push_back(clay.hash());
+    const bool told = fate.way != std::string("hand") || sculpture.undo_depth() > depth;
+    if (done && told) hashes.push_back(sculpture.hash());
   };
   if (fate.way == std::string("hand")) {
     for (const Stroke& stroke : test::hand_strokes(fate.seed)) live(stroke);
@@ -123,9 +123,9 @@ class SessionKills : public testing::Test {
                  << fate.way << ", seed " << fate.seed << ", killed at call " << fate.kill_at
                  << " or after " << fate.kill_us << " us, full " << fate.percent << " %");
     const bool is_first = !fs::exists(project());
-    auto before = is_first ? OpenedProject{test::life_start(), 0, {}}
+    auto before = is_first ? OpenedProject{Sculpture(test::life_start()), 0, {}}
                            : std::move(open_project(project())).value();
-    const std::vector<std::uint64_t> hashes = hashes_of(std::move(before.clay), fate);
+    const std::vector<std::uint64_t> hashes = hashes_of(std::move(before.sculpture), fate);
     const Death death = live_and_die(project(), fate);
     kills_ += death.killed ? 1 : 0;
     reported_ += death.reported;
@@ -141,13 +141,13 @@ class SessionKills : public testing::Test {
   /// The project alone loads, and with its journal it is a life's state at or after the last
   /// report.
   void judge(const std::vector<std::uint64_t>& hashes, std::uint32_t reported) {
-    const auto alone = load_project(project());
+    const auto alone = load_sculpture(project());
     ASSERT_TRUE(alone) << alone.error().message;
     const auto opened = open_project(project());
     ASSERT_TRUE(opened) << opened.error().message;
     recovered_ += opened.value().recovered_steps;
     const auto first = hashes.begin() + static_cast<std::ptrdiff_t>(reported);
-    EXPECT_NE(std::find(first, hashes.end(), opened.value().clay.hash()), hashes.end())
+    EXPECT_NE(std::find(first, hashes.end(), opened.value().sculpture.hash()), hashes.end())
         << reported << " steps were reported durable";
   }
 
@@ -157,14 +157,16 @@ class SessionKills : public testing::Test {
     ASSERT_TRUE(opened) << opened.error().message;
     auto session = Session::open(project());
     ASSERT_TRUE(session) << session.error().message;
-    EXPECT_EQ(session.value().clay().hash(), opened.value().clay.hash());
+    EXPECT_EQ(session.value().sculpture().hash(), opened.value().sculpture.hash());
     const auto closed = session.value().close();
     ASSERT_TRUE(closed) << closed.error().message;
     EXPECT_THAT(folder_.names(), testing::ElementsAre("piece.vdb"));
-    const auto loaded = load_project(project());
+    const auto loaded = load_sculpture(project());
     ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded.value().hash(), opened.value().clay.hash());
-    EXPECT_THAT(loaded.value().validate(), testing::IsEmpty());
+    EXPECT_EQ(loaded.value().hash(), opened.value().sculpture.hash());
+    for (std::size_t n = 0; n < loaded.value().piece_count(); ++n) {
+      EXPECT_THAT(loaded.value().clay(n).validate(), testing::IsEmpty());
+    }
   }
 
   /// So many projects, each with up to three lives on end; more where the kills came too late, and
@@ -209,12 +211,12 @@ class SessionKills : public testing::Test {
 std::optional<std::size_t> state_of(const fs::path& file, std::uint64_t former,
                                     const std::vector<std::uint64_t>& hashes) {
   if (!fs::exists(file)) return std::nullopt;
-  const auto alone = load_project(file);
+  const auto alone = load_sculpture(file);
   EXPECT_TRUE(alone) << alone.error().message;
   const auto opened = open_project(file);
   EXPECT_TRUE(opened) << opened.error().message;
-  if (!opened || opened.value().clay.hash() == former) return std::nullopt;
-  const auto last = std::find(hashes.rbegin(), hashes.rend(), opened.value().clay.hash());
+  if (!opened || opened.value().sculpture.hash() == former) return std::nullopt;
+  const auto last = std::find(hashes.rbegin(), hashes.rend(), opened.value().sculpture.hash());
   EXPECT_NE(last, hashes.rend()) << file << " is none of the states";
   return static_cast<std::size_t>(hashes.rend() - last) - 1;
 }
@@ -234,7 +236,7 @@ void SessionKills::run_moves(int runs) {
     if (run % 2 == 1) {
       ASSERT_TRUE(save_project(moved, other));
     }
-    const std::vector<std::uint64_t> hashes = hashes_of(test::life_start(), fate);
+    const std::vector<std::uint64_t> hashes = hashes_of(Sculpture(test::life_start()), fate);
     const Death death = live_and_die(project(), fate);
     kills_ += death.killed ? 1 : 0;
     const auto here = state_of(project(), 0, hashes);

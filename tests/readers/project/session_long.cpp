@@ -73,7 +73,7 @@ void expect_flat_and_printable(int strokes, std::int64_t undo_bytes) {
   for (int n = 0; n < strokes; ++n) {
     ScriptStep step = small_stroke(n);
     if (n % 50 == 49) step = HistoryStep::undo;
-    const auto done = apply_step(session.clay(), step);
+    const auto done = apply_step(session.sculpture(), step);
     ASSERT_TRUE(done) << done.error().message;
     session.record(step);
     if (n % std::max(strokes / 8, 1) == 0) {

@@ -83,7 +83,7 @@ class SessionSteps : public testing::Test {
   }
 
   static void sculpt(Session& session, const ScriptStep& step) {
-    const auto done = apply_step(session.clay(), step);
+    const auto done = apply_step(session.sculpture(), step);
     ASSERT_TRUE(done) << done.error().message;
     session.record(step);
   }
@@ -144,9 +144,9 @@ TEST_F(SessionSteps, OutliveTheMeshTheyWereReadFrom) {
     hash = session.clay().hash();
   }
   ASSERT_TRUE(write_mesh(file("rod.stl"), test::ball_mesh(2.0, 1)));
-  EXPECT_EQ(open_project(file()).value().clay.hash(), hash);
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), hash);
   fs::remove(file("rod.stl"));
-  EXPECT_EQ(open_project(file()).value().clay.hash(), hash);
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), hash);
 }
 
 TEST_F(SessionSteps, StoreASolidOnceAndRemoveItAtTheEnd) {
@@ -196,7 +196,7 @@ TEST_F(SessionSteps, TellAndKeepWhatNeedsASolidThatIsGoneOrChanged) {
   fill(solid, changed);
   auto read = open_project(file());
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read.value().clay.hash(), first);
+  EXPECT_EQ(read.value().sculpture.hash(), first);
   EXPECT_THAT(read.value().notes.at(1),
               AllOf(HasSubstr("is damaged"), HasSubstr("key 'with' cannot be used"),
                     HasSubstr("it was changed")));
@@ -241,11 +241,11 @@ TEST_F(SessionSteps, WaitForTheirSolidAndKeepTheirOrder) {
   EXPECT_EQ(blocked.error().kind, ErrorKind::disk);
   EXPECT_THAT(blocked.error().message, HasSubstr(name));
   EXPECT_FALSE(session.problem());
-  EXPECT_EQ(open_project(file()).value().clay.hash(), first);
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), first);
   fs::remove_all(file(name));
   ASSERT_TRUE(session.flush());
   EXPECT_TRUE(session.problem());
-  EXPECT_EQ(open_project(file()).value().clay.hash(), session.clay().hash());
+  EXPECT_EQ(open_project(file()).value().sculpture.hash(), session.clay().hash());
 }
 
 TEST_F(SessionSteps, CanBeInterruptedWhileTheyAreRepeated) {
@@ -282,9 +282,9 @@ TEST_F(SessionSteps, ThatAreSlowToRepeatAreAutosavedAtOnce) {
   ASSERT_TRUE(fs::exists(file(".piece.autosave.vdb")));
   const auto opened = open_project(file());
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), hash);
+  EXPECT_EQ(opened.value().sculpture.hash(), hash);
   EXPECT_EQ(opened.value().recovered_steps, 2);
-  EXPECT_EQ(opened.value().clay.undo_depth(), 0) << "something was repeated";
+  EXPECT_EQ(opened.value().sculpture.clay().undo_depth(), 0) << "something was repeated";
 }
 
 TEST_F(SessionSteps, AfterAnAutosaveUndoAndRedoReachBehindIt) {
@@ -294,7 +294,7 @@ TEST_F(SessionSteps, AfterAnAutosaveUndoAndRedoReachBehindIt) {
     sculpt(session, step);
     hashes.push_back(session.clay().hash());
     ASSERT_TRUE(session.flush());
-    EXPECT_EQ(open_project(file()).value().clay.hash(), hashes.back());
+    EXPECT_EQ(open_project(file()).value().sculpture.hash(), hashes.back());
   };
   both(Operation(Offset{0.3}));
   both(Operation(unite_ball()));
@@ -327,8 +327,8 @@ TEST_F(SessionSteps, OfAWorkerAreRecovered) {
   ASSERT_TRUE(session.flush());
   const auto opened = open_project(file());
   ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened.value().clay.hash(), session.clay().hash());
-  EXPECT_EQ(opened.value().clay.undo_depth(), session.clay().undo_depth());
+  EXPECT_EQ(opened.value().sculpture.hash(), session.clay().hash());
+  EXPECT_EQ(opened.value().sculpture.clay().undo_depth(), session.clay().undo_depth());
 }
 
 }  // namespace

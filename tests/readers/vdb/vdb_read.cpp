@@ -15,6 +15,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/LevelSetUtil.h>
+#include <tbb/global_control.h>
 
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"

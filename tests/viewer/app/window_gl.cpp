@@ -393,7 +393,7 @@ TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
   const auto left = io::left_steps(project);
   ASSERT_TRUE(left.ok() && left.value());
   EXPECT_EQ(left.value()->steps, 2U);
-  const std::uint64_t recovered = io::open_project(project).value().clay.hash();
+  const std::uint64_t recovered = io::open_project(project).value().sculpture.hash();
   EXPECT_NE(recovered, first_clay().hash());
 
   const WindowRun again = play(
@@ -411,7 +411,7 @@ TEST_F(ViewWindowGl, WhatIsNotRecoveredIsKeptBesideTheProject) {
   const WindowRun run = play("settle\nclick Open as it was saved\nsettle\nkey Ctrl+Q\nframes 3\n",
                              shell_word(project));
   EXPECT_EQ(run.status, 0) << run.words;
-  EXPECT_EQ(io::open_project(project).value().clay.hash(), first_clay().hash());
+  EXPECT_EQ(io::open_project(project).value().sculpture.hash(), first_clay().hash());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "p.journal.jsonl.left-1"));
 }
 
@@ -633,7 +633,7 @@ TEST_F(ViewWindowGl, TheSimulatedFalconFeelsTheClayAndWorksIt) {
   EXPECT_EQ(felt.status, 0) << felt.words;
   EXPECT_GT(felt.report.at("most_force_n"), 0.1);
   EXPECT_LT(felt.report.at("most_force_n"), 9.0);
-  EXPECT_EQ(io::open_project(project).value().clay.hash(), first_clay().hash());
+  EXPECT_EQ(io::open_project(project).value().sculpture.hash(), first_clay().hash());
 
   // Chosen in the panel instead, and pressed.
   const WindowRun worked = play(

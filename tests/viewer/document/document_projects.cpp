@@ -41,7 +41,7 @@ TEST_F(DocumentThreadTest, WhatWasNeverSavedIsInTheHomeFolderUntilItIs) {
 std::uint64_t hash_with_journal(const std::filesystem::path& project) {
   const auto opened = io::open_project(project);
   EXPECT_TRUE(opened.ok());
-  return opened ? opened.value().clay.hash() : 0;
+  return opened ? opened.value().sculpture.hash() : 0;
 }
 
 TEST_F(DocumentThreadTest, SavingUnderAnotherNameKeepsWhatCanBeUndoneAndRedone) {

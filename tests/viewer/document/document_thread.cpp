@@ -270,7 +270,7 @@ TEST_F(DocumentThreadTest, WithoutSavingAProjectIsWhatItWas) {
   thread_.send(EndProject{false});
   settle();
   EXPECT_FALSE(thread_.state().has_clay);
-  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
+  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().sculpture.hash(), hash);
 }
 
 TEST_F(DocumentThreadTest, AChangedClayWithoutANameIsNotLeftToBeSaved) {
@@ -295,7 +295,7 @@ TEST_F(DocumentThreadTest, WithoutSavingWhatCameAfterASaveIsNotLeftToBeRecovered
   stroke({-19.0, -3.0, 0.0}, {-19.0, 3.0, 0.0});
   thread_.send(EndProject{false});
   settle();
-  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().clay.hash(), hash);
+  EXPECT_EQ(io::open_project(folder_ / "p.vdb").value().sculpture.hash(), hash);
   EXPECT_FALSE(io::left_steps(folder_ / "p.vdb").value());
 }
 

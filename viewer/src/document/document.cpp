@@ -120,7 +120,7 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
 void Document::record(const io::ScriptStep& step, bool is_stamp) {
   session_->record(step);
   history_.record(step, is_stamp);
-  history_.keep(static_cast<std::size_t>(clay().undo_depth()), history_.steps().size());
+  history_.keep(static_cast<std::size_t>(sculpture().undo_depth()), history_.steps().size());
 }
 
 /// Asked before the new document is made, which may take long.
@@ -206,9 +206,9 @@ void Document::recall_steps() {
   for (const io::ScriptStep& step : read.value().steps) history_.record(step);
   // The clay does not say how many steps it can redo: it is tried, and taken back.
   std::size_t redone = 0;
-  while (clay().redo()) ++redone;
-  for (std::size_t n = 0; n < redone; ++n) clay().undo();
-  history_.keep(static_cast<std::size_t>(clay().undo_depth()), redone);
+  while (sculpture().redo()) ++redone;
+  for (std::size_t n = 0; n < redone; ++n) sculpture().undo();
+  history_.keep(static_cast<std::size_t>(sculpture().undo_depth()), redone);
 }
 
 Result<std::vector<std::string>> Document::import(const fs::path& mesh, bool saves_former,
@@ -240,7 +240,7 @@ Result<void> Document::save() {
   // A session that knows of no change writes nothing, and needs the file that was there.
   std::error_code error;
   if (!fs::exists(file_, error)) {
-    if (auto written = io::save_project(file_, clay()); !written) return written;
+    if (auto written = io::save_sculpture(file_, sculpture()); !written) return written;
   }
   if (auto saved = session_->save(); !saved) return saved;
   saved_steps_ = session_->step_count();

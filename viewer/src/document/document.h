@@ -26,10 +26,12 @@ class Document {
 
   bool has_project() const noexcept { return session_.has_value(); }
   /// Where has_project().
-  Clay& clay() {
+  Sculpture& sculpture() {
     assert(has_project());
-    return session_->clay();
+    return session_->sculpture();
   }
+  /// Of its active piece.
+  Clay& clay() { return sculpture().clay(); }
   const std::filesystem::path& file() const noexcept { return file_; }
   bool is_untitled() const noexcept { return is_untitled_; }
   /// Whether a project is one that has no name yet, of this window or a killed one.

@@ -64,7 +64,7 @@ void DocumentWorker::post_state() {
     state.file = document_.file();
     state.is_untitled = document_.is_untitled();
     state.is_changed = document_.is_changed();
-    state.undo_depth = clay.undo_depth();
+    state.undo_depth = document_.sculpture().undo_depth();
     state.steps = step_names();
     state.has_mask = clay.has_mask();
     state.is_stroke_open = clay.is_stroke_open();
@@ -398,7 +398,7 @@ void DocumentWorker::on(const CancelStroke&) {
 
 /// One undo or redo, recorded; false where the clay refused.
 bool DocumentWorker::apply_history(io::HistoryStep move) {
-  if (auto done = io::apply_step(document_.clay(), move); !done) {
+  if (auto done = io::apply_step(document_.sculpture(), move); !done) {
     complain(done.error());
     return false;
   }
@@ -414,7 +414,7 @@ void DocumentWorker::on(const DoStep& wanted) {
   const bool is_history = move != nullptr;
   // Undo and redo are too short for a bar.
   const Progress progress = is_history ? Progress() : outbox_.begin_task("change the clay");
-  const auto done = io::apply_step(document_.clay(), wanted.step, progress);
+  const auto done = io::apply_step(document_.sculpture(), wanted.step, progress);
   if (!is_history) outbox_.end_task();
   if (!done) {
     if (is_history) {

@@ -51,6 +51,26 @@ struct NameOf {
   std::string operator()(const Resample& resample) const {
     return with_mm("Resample,", resample.voxel_mm);
   }
+  std::string operator()(const std::same_as<PieceEdit> auto& edit) const {
+    return std::visit(*this, edit);
+  }
+  std::string operator()(const SelectPiece& select) const { return select.name + " selected"; }
+  std::string operator()(const AddPiece& add) const { return add.look.name + " added"; }
+  std::string operator()(const CopyPiece& copy) const { return copy.name + " duplicated"; }
+  std::string operator()(const RemovePiece& remove) const { return remove.name + " removed"; }
+  std::string operator()(const ChangePiece& change) const {
+    return change.name + (change.new_name     ? " renamed"
+                          : change.placement  ? " moved"
+                          : change.is_visible ? (*change.is_visible ? " shown" : " hidden")
+                          : change.is_locked  ? (*change.is_locked ? " locked" : " unlocked")
+                                              : " coloured");
+  }
+  std::string operator()(const MergePiece& merge) const {
+    const char* what = merge.kind == CombineKind::unite      ? "merged with "
+                       : merge.kind == CombineKind::subtract ? "minus "
+                                                             : "cut to ";
+    return merge.name + " " + what + merge.other;
+  }
   std::string operator()(MaskEdit edit) const {
     switch (edit) {
       case MaskEdit::clear:
@@ -75,6 +95,9 @@ void StepHistory::record(const io::ScriptStep& step, bool is_stamp) {
     if (*move == io::HistoryStep::redo && done_ < steps_.size()) ++done_;
     return;
   }
+  // Which piece is at hand is no change of the work.
+  const auto* edit = std::get_if<PieceEdit>(&step);
+  if (edit != nullptr && std::holds_alternative<SelectPiece>(*edit)) return;
   assert(done_ <= steps_.size() && steps_.size() == names_.size());
   // What was taken back is gone once something else is done.
   steps_.resize(done_);

@@ -19,7 +19,7 @@ namespace argil::io {
 
 /// A project as it stands with the strokes of its journal, if a session left one.
 struct OpenedProject {
-  Clay clay;
+  Sculpture sculpture;
   std::int64_t recovered_steps = 0;  ///< steps of the journal that the file does not hold
   std::vector<std::string> notes;    ///< one sentence for each thing a person should know
 };
@@ -99,12 +99,16 @@ class Session {
   /// Starts a project that must not exist: saves `clay` and sculpts on.
   static Result<Session> create(const std::filesystem::path& file, Clay clay,
                                 const SessionOptions& options = {});
+  static Result<Session> create(const std::filesystem::path& file, Sculpture sculpture,
+                                const SessionOptions& options = {});
 
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
   /// Leaves the journal: as after a kill, but that all steps are tried to be written first.
   ~Session();
 
+  Sculpture& sculpture() noexcept;
+  /// Of its active piece.
   Clay& clay() noexcept;
   std::int64_t recovered_steps() const noexcept;
   const std::vector<std::string>& notes() const noexcept;
@@ -112,9 +116,9 @@ class Session {
   /// Steps the journal holds or will hold, recovered ones included.
   std::size_t step_count() const noexcept;
 
-  /// Keeps a step, as validate_step wants it, that was just applied to clay() (apply_step, or a
-  /// live stroke as a whole: what ClayWorkerOptions::on_stroke tells). The mesh or clay that it
-  /// works with is kept in a file of its own and must not change meanwhile.
+  /// Keeps a step, as validate_step wants it, that was just applied to sculpture() (apply_step, or
+  /// to clay() a live stroke as a whole: what ClayWorkerOptions::on_stroke tells). The mesh or clay
+  /// that it works with is kept in a file of its own and must not change meanwhile.
   void record(const ScriptStep& step);
 
   /// Waits until every step recorded is on the disk.
@@ -164,5 +168,7 @@ class Session {
 /// Errors  bad_input when another program has the project; as save_project.
 Result<std::vector<std::string>> replace_project(const std::filesystem::path& file,
                                                  const Clay& clay);
+Result<std::vector<std::string>> replace_project(const std::filesystem::path& file,
+                                                 const Sculpture& sculpture);
 
 }  // namespace argil::io

@@ -12,6 +12,7 @@
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/operation.h"
+#include "argil/engine/sculpture.h"
 #include "argil/engine/stroke.h"
 
 namespace argil::io {
@@ -27,15 +28,20 @@ struct StartShape {
 enum class HistoryStep { undo, redo };
 
 /// What a person did to the clay, as one line of a script or journal.
-using ScriptStep = std::variant<Stroke, HistoryStep, Operation, MaskEdit>;
+using ScriptStep = std::variant<Stroke, HistoryStep, Operation, MaskEdit, PieceEdit>;
 
 struct StrokeScript {
   std::optional<StartShape> start;
   std::vector<ScriptStep> steps;
 };
 
-/// Does one step; only a stroke reports dabs.
-/// Errors  those of Clay::apply; bad_input when there is nothing to undo or redo.
+/// Does one step to the active piece, or to the list of pieces; only a stroke reports dabs.
+/// Errors  those of Clay::apply and Sculpture::apply; bad_input when the active piece is locked, or
+///         there is nothing to undo or redo.
+Result<StrokeReport> apply_step(Sculpture& sculpture, const ScriptStep& step,
+                                const Progress& progress = {});
+
+/// The same to a clay that is no piece of a sculpture; steps of pieces are refused.
 Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progress& progress = {});
 
 /// Success, or bad_input naming what of the step is out of its range.

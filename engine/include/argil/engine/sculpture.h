@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "argil/core/progress.h"
+#include "argil/core/result.h"
+#include "argil/core/triangle_mesh.h"
+#include "argil/engine/clay.h"
+#include "argil/engine/operation.h"
+
+namespace argil {
+
+/// Red, green and blue in sRGB.
+using Rgb8 = std::array<std::uint8_t, 3>;
+
+/// How a piece is called, where it stands and how it is shown. What is sculpted stays in the
+/// piece's own frame, in mm: moving a piece changes no bit of its clay.
+struct PieceLook {
+  /// 1 to kMostBytesOfAName bytes of UTF-8 without control characters, nor blanks at its ends;
+  /// differs from piece to piece.
+  std::string name = "Clay";
+  Placement placement = {};  ///< of the piece's frame in the sculpture
+  bool is_visible = true;
+  bool is_locked = false;  ///< strokes and operations on it are refused
+  std::optional<Rgb8> color = std::nullopt;
+};
+
+// What can be done to the pieces of a sculpture: Sculpture::apply. Each but SelectPiece is one undo
+// step. Pieces are named by PieceLook::name.
+
+/// Strokes and operations go to this piece from now on.
+struct SelectPiece {
+  std::string name;
+};
+
+/// Another piece, which is then the active one. One of `clay` and `mesh` is given.
+struct AddPiece {
+  PieceLook look = {};
+  std::shared_ptr<const Clay> clay = nullptr;          ///< copied
+  std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< as import_mesh takes it
+  double voxel_mm = 0.0;                               ///< of a mesh; 0: that of the active piece
+};
+
+/// The same clay once more, at the same place: then the active piece.
+struct CopyPiece {
+  std::string name;
+  std::string copy;  ///< the new piece's name
+};
+
+/// The last piece cannot be removed.
+struct RemovePiece {
+  std::string name;
+};
+
+/// What is given is changed.
+struct ChangePiece {
+  std::string name;
+  std::optional<std::string> new_name = std::nullopt;
+  std::optional<Placement> placement = std::nullopt;
+  std::optional<bool> is_visible = std::nullopt;
+  std::optional<bool> is_locked = std::nullopt;
+  std::optional<std::optional<Rgb8>> color = std::nullopt;  ///< given and none: without a colour
+};
+
+/// Combines a piece with another, both where they stand, and removes the other unless it is kept.
+/// The accuracy is that of Combine.
+struct MergePiece {
+  std::string name;
+  std::string other;
+  CombineKind kind = CombineKind::unite;
+  bool keeps_other = false;
+};
+
+using PieceEdit =
+    std::variant<SelectPiece, AddPiece, CopyPiece, RemovePiece, ChangePiece, MergePiece>;
+
+/// A point of a piece's frame in the sculpture, and back.
+Vec3 placed(const Placement& placement, const Vec3& point_mm) noexcept;
+Vec3 unplaced(const Placement& placement, const Vec3& point_mm) noexcept;
+
+/// Success, or bad_input naming what of it no piece can have, with the remedy.
+Result<void> validate_look(const PieceLook& look);
+
+/// Several clays that are one work: each piece with a clay, a name and a place of its own. One is
+/// active: what is done to clay() goes to it, and undo takes back whatever was done last to any.
+///
+/// Threads  as Clay; all pieces belong to one thread.
+/// Errors   a failed call leaves everything as it was.
+class Sculpture {
+ public:
+  static constexpr std::size_t kMostPieces = 1000;
+  static constexpr std::size_t kMostBytesOfAName = 63;
+
+  /// One piece.
+  explicit Sculpture(Clay clay, PieceLook look = {});
+
+  /// Pieces that lie ready, as a file has them. Errors  bad_input: none, too many, names or looks
+  /// that no piece can have, or no piece `active`.
+  struct ReadyPiece {
+    PieceLook look;
+    Clay clay;
+  };
+  static Result<Sculpture> of(std::vector<ReadyPiece> pieces, std::size_t active);
+
+  Sculpture(Sculpture&&) noexcept;
+  Sculpture& operator=(Sculpture&&) noexcept;
+  ~Sculpture();
+
+  std::size_t piece_count() const noexcept;
+  /// In the order in which they are listed; `n` below piece_count() (assert).
+  const PieceLook& look(std::size_t n) const;
+  const Clay& clay(std::size_t n) const;
+  std::optional<std::size_t> find(std::string_view name) const;
+  std::size_t active() const noexcept;
+
+  /// The active piece's. It may be changed by everything but its own undo and redo; they would
+  /// leave out what was done to other pieces since.
+  Clay& clay() noexcept;
+  const Clay& clay() const noexcept;
+  /// The active piece's, out of the sculpture, which is of no further use.
+  Clay take_clay() &&;
+  /// Success, or bad_input: the active piece is locked.
+  Result<void> check_unlocked() const;
+
+  /// `base`, or with the first number behind it that no piece's name has.
+  std::string free_name(std::string_view base) const;
+
+  /// Errors  bad_input: no such piece, a name that is taken, a look out of its range, the last
+  ///         piece, a locked piece to be changed or removed, or an open stroke; as Clay::apply
+  ///         (MergePiece) and import_mesh (AddPiece).
+  /// Cost    AddPiece of a clay and CopyPiece: a copy of its leaves. RemovePiece keeps the clay for
+  ///         undo; ClayLimits::undo_bytes bounds what is kept of removed pieces, too.
+  Result<void> apply(const PieceEdit& edit, const Progress& progress = {});
+
+  /// Takes back, or repeats, what was done last to any piece, or to their list. False where there
+  /// is nothing, or while a stroke is open. The active piece changes only where it comes or goes.
+  bool undo();
+  bool redo();
+  int undo_depth();
+
+  /// Of each piece. Errors  as Clay::set_limits.
+  Result<void> set_limits(const ClayLimits& limits);
+
+  /// Whether it is no more than its clay: a single piece that stands where it was made, visible,
+  /// free, without a colour, by its usual name.
+  bool is_plain() const;
+
+  /// Of all pieces with their looks and clays, and of which is active. Of a plain sculpture the
+  /// hash of its clay.
+  std::uint64_t hash() const;
+
+  struct State;  // private to the engine
+
+ private:
+  friend class SculptureCopy;
+  explicit Sculpture(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// A copy of a sculpture made in pieces between strokes, as ClayCopy is of a clay. The copy has no
+/// history.
+class SculptureCopy {
+ public:
+  static constexpr std::size_t kAllLeaves = std::numeric_limits<std::size_t>::max();
+
+  explicit SculptureCopy(const Sculpture& sculpture);
+  ~SculptureCopy();
+  SculptureCopy(SculptureCopy&&) noexcept;
+  SculptureCopy& operator=(SculptureCopy&&) noexcept;
+
+  /// As ClayCopy::advance. `sculpture` is that of the constructor.
+  bool advance(const Sculpture& sculpture, std::size_t most_leaves);
+  /// Once complete.
+  Sculpture take() &&;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The sculpture as it stands, with nothing to undo.
+Sculpture copy_of(const Sculpture& sculpture);
+
+}  // namespace argil

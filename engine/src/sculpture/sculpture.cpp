@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pieces and what was done to them, in one order. Each clay remembers its own steps; here stands
+// only whose turn it was.
+#include "argil/engine/sculpture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "argil/core/hash.h"
+
+#include "sculpture/sculpture_state.h"
+
+namespace argil {
+namespace {
+
+template <class T>
+void hash_in(Hash64& hash, const T& value) {
+  static_assert(std::is_arithmetic_v<T>);
+  hash.update(std::as_bytes(std::span(&value, 1)));
+}
+
+void hash_in(Hash64& hash, const Vec3& v) {
+  hash_in(hash, v.x);
+  hash_in(hash, v.y);
+  hash_in(hash, v.z);
+}
+
+void hash_in(Hash64& hash, const PieceLook& look) {
+  hash_in(hash, static_cast<std::uint64_t>(look.name.size()));
+  hash.update(std::as_bytes(std::span(look.name)));
+  hash_in(hash, look.placement.position_mm);
+  const Quat& q = look.placement.orientation;
+  hash_in(hash, q.w);
+  hash_in(hash, Vec3{q.x, q.y, q.z});
+  hash_in(hash, look.is_visible);
+  hash_in(hash, look.is_locked);
+  hash_in(hash, look.color.has_value());
+  if (look.color) hash.update(std::as_bytes(std::span(*look.color)));
+}
+
+bool stays_put(const Placement& placement) {
+  return placement.position_mm == Vec3{} && placement.orientation == Quat{};
+}
+
+std::int64_t bytes_of_piece(const Clay& clay) {
+  const ClayUse use = clay.use();
+  return use.level_bytes + use.undo_bytes + use.mask_bytes;
+}
+
+std::int64_t bytes_held(const SculptureStep& step) {
+  std::int64_t bytes = 0;
+  for (const auto& part : step.parts) {
+    const auto* move = std::get_if<PieceMove>(&part);
+    if (move != nullptr && move->held) bytes += bytes_of_piece(*move->held->clay);
+  }
+  return bytes;
+}
+
+std::int64_t bytes_held(const std::vector<SculptureStep>& steps) {
+  std::int64_t bytes = 0;
+  for (const SculptureStep& step : steps) bytes += bytes_held(step);
+  return bytes;
+}
+
+}  // namespace
+
+std::int64_t steps_of(const Clay& clay) { return clay.undo_depth() + clay.use().steps_forgotten; }
+
+// ---- the list ----------------------------------------------------------------------------------
+
+std::optional<std::size_t> Sculpture::State::find(std::string_view name) const {
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    if (pieces[n].look.name == name) return n;
+  }
+  return std::nullopt;
+}
+
+std::size_t Sculpture::State::index_of(PieceId id) const {
+  const auto at = std::find_if(pieces.begin(), pieces.end(),
+                               [id](const Piece& piece) { return piece.id == id; });
+  assert(at != pieces.end());
+  return static_cast<std::size_t>(at - pieces.begin());
+}
+
+Piece Sculpture::State::make(PieceLook look, Clay clay) {
+  const std::int64_t steps = steps_of(clay);
+  return {next_id++, std::move(look), std::make_shared<Clay>(std::move(clay)), steps};
+}
+
+Sculpture::Sculpture(Clay clay, PieceLook look) : state_(std::make_unique<State>()) {
+  assert(validate_look(look));
+  state_->limits = clay.limits();
+  Piece piece = state_->make(std::move(look), std::move(clay));
+  // Those that it can take back are its own.
+  piece.known_steps = piece.clay->use().steps_forgotten;
+  state_->pieces.push_back(std::move(piece));
+}
+
+Sculpture::Sculpture(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Sculpture::Sculpture(Sculpture&&) noexcept = default;
+Sculpture& Sculpture::operator=(Sculpture&&) noexcept = default;
+Sculpture::~Sculpture() = default;
+
+std::size_t Sculpture::piece_count() const noexcept { return state_->pieces.size(); }
+const PieceLook& Sculpture::look(std::size_t n) const {
+  assert(n < piece_count());
+  return state_->pieces[n].look;
+}
+const Clay& Sculpture::clay(std::size_t n) const {
+  assert(n < piece_count());
+  return *state_->pieces[n].clay;
+}
+std::optional<std::size_t> Sculpture::find(std::string_view name) const {
+  return state_->find(name);
+}
+std::size_t Sculpture::active() const noexcept { return state_->index_of(state_->active); }
+Clay& Sculpture::clay() noexcept { return *state_->active_piece().clay; }
+const Clay& Sculpture::clay() const noexcept { return *state_->active_piece().clay; }
+Clay Sculpture::take_clay() && { return std::move(*state_->active_piece().clay); }
+
+std::string Sculpture::free_name(std::string_view base) const {
+  std::string name(base);
+  for (int n = 2; find(name); ++n) {
+    const std::string number = " " + std::to_string(n);
+    // Room for the number, without cutting a letter of several bytes in two.
+    std::size_t kept = std::min(base.size(), kMostBytesOfAName - number.size());
+    while (kept > 0 && kept < base.size() && (base[kept] & 0xC0) == 0x80) --kept;
+    name = std::string(base.substr(0, kept)) + number;
+  }
+  return name;
+}
+
+Result<void> Sculpture::set_limits(const ClayLimits& limits) {
+  for (Piece& piece : state_->pieces) {
+    if (auto set = piece.clay->set_limits(limits); !set) return set;
+  }
+  state_->limits = limits;
+  state_->forget_what_is_too_much();
+  return {};
+}
+
+bool Sculpture::is_plain() const {
+  if (piece_count() > 1) return false;
+  const PieceLook& only = look(0);
+  return stays_put(only.placement) && only.is_visible && !only.is_locked && !only.color &&
+         only.name == PieceLook().name;
+}
+
+std::uint64_t Sculpture::hash() const {
+  if (is_plain()) return clay().hash();
+  Hash64 hash;
+  hash_in(hash, static_cast<std::uint64_t>(piece_count()));
+  hash_in(hash, static_cast<std::uint64_t>(active()));
+  for (const Piece& piece : state_->pieces) {
+    hash_in(hash, piece.look);
+    hash_in(hash, piece.clay->hash());
+  }
+  return hash.digest();
+}
+
+// ---- what was done -----------------------------------------------------------------------------
+
+void Sculpture::State::follow() {
+  Piece& piece = active_piece();
+  const std::int64_t steps = steps_of(*piece.clay);
+  assert(steps >= piece.known_steps);
+  if (steps == piece.known_steps) return;
+  for (; piece.known_steps < steps; ++piece.known_steps) {
+    undo_steps.push_back({{ClayStep{piece.id}}, piece.id});
+  }
+  redo_steps.clear();
+}
+
+void Sculpture::State::push(SculptureStep step) {
+  undo_steps.push_back(std::move(step));
+  redo_steps.clear();
+  forget_what_is_too_much();
+}
+
+/// The oldest steps go until what they hold of removed pieces fits; the last one stays.
+void Sculpture::State::forget_what_is_too_much() {
+  std::int64_t held = bytes_held(undo_steps) + bytes_held(redo_steps);
+  std::size_t gone = 0;
+  while (held > limits.undo_bytes && gone + 1 < undo_steps.size()) {
+    held -= bytes_held(undo_steps[gone++]);
+  }
+  undo_steps.erase(undo_steps.begin(), undo_steps.begin() + static_cast<std::ptrdiff_t>(gone));
+}
+
+bool Sculpture::State::turn(SculptureStep& step, bool is_undo) {
+  // Of the parts only a clay's own step can fail, and no step has more than one: it comes first.
+  for (const auto& part : step.parts) {
+    const auto* own = std::get_if<ClayStep>(&part);
+    if (own == nullptr) continue;
+    Piece& piece = of(own->piece);
+    if (!(is_undo ? piece.clay->undo() : piece.clay->redo())) return false;
+    piece.known_steps = steps_of(*piece.clay);
+  }
+  const auto turn_part = [&](auto& part) {
+    if (auto* other = std::get_if<OtherLook>(&part)) {
+      std::swap(of(other->piece).look, other->look);
+    } else if (auto* move = std::get_if<PieceMove>(&part)) {
+      const auto at = pieces.begin() + static_cast<std::ptrdiff_t>(move->index);
+      if (move->held) {
+        pieces.insert(at, *std::exchange(move->held, std::nullopt));
+      } else {
+        move->held = std::move(*at);
+        pieces.erase(at);
+      }
+    }
+  };
+  if (is_undo) {
+    std::for_each(step.parts.rbegin(), step.parts.rend(), turn_part);
+  } else {
+    std::for_each(step.parts.begin(), step.parts.end(), turn_part);
+  }
+  const bool is_gone = std::none_of(pieces.begin(), pieces.end(),
+                                    [this](const Piece& piece) { return piece.id == active; });
+  if (is_gone) active = step.goes_on;
+  return true;
+}
+
+bool Sculpture::undo() {
+  if (state_->is_stroke_open()) return false;
+  state_->follow();
+  if (state_->undo_steps.empty()) return false;
+  if (!state_->turn(state_->undo_steps.back(), true)) return false;
+  state_->redo_steps.push_back(std::move(state_->undo_steps.back()));
+  state_->undo_steps.pop_back();
+  return true;
+}
+
+bool Sculpture::redo() {
+  if (state_->is_stroke_open()) return false;
+  state_->follow();
+  if (state_->redo_steps.empty()) return false;
+  if (!state_->turn(state_->redo_steps.back(), false)) return false;
+  state_->undo_steps.push_back(std::move(state_->redo_steps.back()));
+  state_->redo_steps.pop_back();
+  return true;
+}
+
+int Sculpture::undo_depth() {
+  state_->follow();
+  // A clay may have forgotten its oldest steps: how many each has left, removed pieces included.
+  std::map<PieceId, int> left;
+  for (const Piece& piece : state_->pieces) left[piece.id] = piece.clay->undo_depth();
+  for (const SculptureStep& step : state_->undo_steps) {
+    for (const auto& part : step.parts) {
+      const auto* move = std::get_if<PieceMove>(&part);
+      if (move != nullptr && move->held) left[move->held->id] = move->held->clay->undo_depth();
+    }
+  }
+  int depth = 0;
+  for (auto step = state_->undo_steps.rbegin(); step != state_->undo_steps.rend(); ++step) {
+    for (const auto& part : step->parts) {
+      const auto* own = std::get_if<ClayStep>(&part);
+      if (own != nullptr && left[own->piece]-- == 0) return depth;
+    }
+    ++depth;
+  }
+  return depth;
+}
+
+}  // namespace argil
