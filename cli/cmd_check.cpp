@@ -90,6 +90,8 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
   const bool is_project = has_ending(options.mesh, ".vdb");
   if (is_project) {
     if (auto none = check_no_frame(options.mesh, options.frame); !none) return none.error();
+  } else if (auto none = check_no_piece(options.mesh, options.piece); !none) {
+    return none.error();
   }
   const auto judged = is_project
                           ? judge_project(options.mesh, options.piece, printer.value(), progress)

@@ -171,8 +171,8 @@ std::string edit_text(const Json& json, const Clay& clay, const std::filesystem:
             grouped(one["changed_leaves"].get<std::int64_t>()) + " leaves changed in " +
             number(one["seconds"].get<double>()) + " s\n";
   }
-  return text + levels_text(clay.level_stats()) + "hash " + hex(clay.hash()) + "\nsaved '" +
-         output.string() + "'\n";
+  return text + levels_text(clay.level_stats()) + "hash " + json["hash"].get<std::string>() +
+         "\nsaved '" + output.string() + "'\n";
 }
 
 Result<void> check_files(const EditOptions& options) {
@@ -190,6 +190,7 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   auto opened = open_project(options.project, progress);
   if (!opened) return opened.error();
   Sculpture& sculpture = opened.value().sculpture;
+  const std::string active = sculpture.look(sculpture.active()).name;
   if (auto selected = select_piece(options.project, options.piece, sculpture); !selected) {
     return selected.error();
   }
@@ -197,16 +198,18 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   Clay& clay = sculpture.clay();
   Outcome outcome;
   outcome.json["operations"] = Json::array();
-  const std::uint64_t first_hash = clay.hash();
+  const std::uint64_t first_hash = sculpture.hash();
   for (const NamedOperation& named : options.operations) {
     auto done = run_one(named, clay, progress);
     if (!done) return done.error();
     outcome.json["operations"].push_back(std::move(done).value());
     if (auto stop = check_interrupt(); !stop) return stop.error();
   }
+  // That another piece was worked on is no reason that it is worked on next.
+  if (auto back = sculpture.apply(SelectPiece{active}); !back) return back.error();
   if (auto saved = replace_project(options.output, sculpture); !saved) return saved.error();
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
-  outcome.json["hash"] = hex(clay.hash());
+  outcome.json["hash"] = hex(sculpture.hash());
   outcome.json["start_hash"] = hex(first_hash);
   outcome.json["levels"] = to_json(clay.level_stats());
   outcome.json["seconds"] = watch.seconds();

@@ -28,7 +28,10 @@ struct ExportArguments {
 };
 
 Json distance_json(const mesh::DistanceSummary& distance) {
-  return {{"max_mm", distance.max_mm}, {"mean_mm", distance.mean_mm}, {"rms_mm", distance.rms_mm}};
+  return {{"max_mm", distance.max_mm},
+          {"mean_mm", distance.mean_mm},
+          {"rms_mm", distance.rms_mm},
+          {"samples", distance.samples}};
 }
 
 Json certificate_json(const mesh::Certificate& certificate) {
@@ -43,6 +46,7 @@ Json certificate_json(const mesh::Certificate& certificate) {
   json["surface_triangles"] = certificate.surface_triangles;
   json["voxel_mm"] = certificate.voxel_mm;
   json["tolerance_voxels"] = certificate.tolerance_voxels;
+  json["proven_max_mm"] = or_null(certificate.proven_max_mm);
   json["asked_max_error_mm"] = or_null(certificate.asked_max_error_mm);
   json["asked_triangles"] = or_null(certificate.asked_triangles);
   json["clay_hash"] = hex(certificate.clay_hash);
@@ -61,6 +65,19 @@ Json export_json(const io::ExportReport& report, double seconds) {
   json.update(to_json(report.verdict));
   json["seconds"] = seconds;
   return json;
+}
+
+/// What was proven of the error, and what samples of both surfaces show.
+std::string error_text(const io::ExportReport& report) {
+  const mesh::Certificate& certificate = report.certificate;
+  const mesh::MeshError& error = certificate.error;
+  std::string text;
+  if (certificate.proven_max_mm > 0.0) {
+    text = ", proven within " + number(certificate.proven_max_mm) + " mm of the clay both ways";
+  }
+  return text + ", error " + number(report.max_error_mm) + " mm (rms " +
+         number(report.rms_error_mm) + ") at " +
+         grouped(error.mesh_to_field.samples + error.field_to_mesh.samples) + " samples\n";
 }
 
 Result<void> write_report(const std::filesystem::path& file, const Json& json) {
@@ -82,9 +99,7 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   // The file is written in any case; 1 says that it is not printable.
   outcome.status = report.value().verdict.printable ? 0 : 1;
-  outcome.text = grouped(report.value().triangles) + " triangles, error at most " +
-                 number(report.value().max_error_mm) + " mm (rms " +
-                 number(report.value().rms_error_mm) + ")\n" +
+  outcome.text = grouped(report.value().triangles) + " triangles" + error_text(report.value()) +
                  verdict_text(report.value().verdict) + "saved '" + options.mesh.string() + "'\n";
   return outcome;
 }

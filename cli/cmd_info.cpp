@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil info: what is in a project.
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -21,6 +23,12 @@ std::int64_t total_bytes(const std::vector<LevelStats>& levels) {
 Json bbox_json(const Box3& box) {
   if (box.empty()) return Json();
   return Json::array({to_json(box.min), to_json(box.max)});
+}
+
+std::string color_text(const Rgb8& color) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", color[0], color[1], color[2]);
+  return text.data();
 }
 
 Json placement_json(const Placement& placement) {
@@ -68,7 +76,7 @@ Json look_json(const PieceLook& look) {
   json["name"] = look.name;
   json["visible"] = look.is_visible;
   json["locked"] = look.is_locked;
-  json["color"] = look.color ? Json(*look.color) : Json(nullptr);
+  json["color"] = look.color ? Json(color_text(*look.color)) : Json(nullptr);
   return json;
 }
 

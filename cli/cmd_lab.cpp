@@ -545,6 +545,7 @@ void add_servo_options(CLI::App& command, LabOptions& options) {
 void add_lab_clay_options(CLI::App& command, LabOptions& options) {
   command.add_option("--project", options.project, "the clay; default a slab of 60 x 30 x 60 mm")
       ->type_name("P.vdb");
+  add_piece_option(command, options.piece);
   command.add_option_function<std::string>(
       "--tool", [&options](const std::string& text) { read_tool(text, options.tool); },
       "ball:R or ellipsoid:A,B,C in mm; default ball:4");

@@ -59,6 +59,7 @@ Result<ReadClay> read_clay(const PrepareCommand& command, const Progress& progre
     if (!opened) return opened.error();
     return ReadClay{std::move(opened.value().clay), opened.value().recovered_steps};
   }
+  if (auto none = check_no_piece(command.input, command.piece); !none) return none.error();
   const auto prepared = io::read_prepared_mesh(command.input, {command.size_mm, true});
   if (!prepared) return named(command.input, prepared.error());
   const double voxel = command.voxel_mm > 0.0

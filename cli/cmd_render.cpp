@@ -77,7 +77,7 @@ void read_size(const std::string& text, RenderOptions& options) {
 
 bool is_project(const std::filesystem::path& file) { return file.extension() == ".vdb"; }
 
-/// What is to be seen, and the clay it is of, for its mask; none for a mesh.
+/// What is to be seen, and the clay it is of, for its mask; none for a mesh or several pieces.
 struct Subject {
   TriangleMesh mesh;
   std::shared_ptr<const Clay> clay;
@@ -88,6 +88,7 @@ struct Subject {
 Result<Subject> subject_of(const std::string& file, const std::string& piece,
                            const MeshFrameOptions& frame, const Progress& progress) {
   if (!is_project(file)) {
+    if (auto none = check_no_piece(file, piece); !none) return none.error();
     auto read = open_mesh(file, frame);
     if (!read) return read.error();
     Subject subject{std::move(read.value().mesh), nullptr, 0};
@@ -95,12 +96,20 @@ Result<Subject> subject_of(const std::string& file, const std::string& piece,
     return subject;
   }
   if (auto none = check_no_frame(file, frame); !none) return none.error();
-  auto opened = open_clay(file, piece, progress);
+  auto opened = open_project(file, progress);
   if (!opened) return opened.error();
-  auto clay = std::make_shared<const Clay>(std::move(opened.value().clay));
+  const std::int64_t recovered = opened.value().recovered_steps;
+  Sculpture& sculpture = opened.value().sculpture;
+  if (piece.empty() && sculpture.piece_count() > 1) {
+    auto surface = extract_surface(sculpture, progress);
+    if (!surface) return surface.error();
+    return Subject{std::move(surface).value(), nullptr, recovered};
+  }
+  if (auto selected = select_piece(file, piece, sculpture); !selected) return selected.error();
+  auto clay = std::make_shared<const Clay>(std::move(sculpture).take_clay());
   auto surface = extract_surface(*clay, progress);
   if (!surface) return surface.error();
-  return Subject{std::move(surface).value(), clay, opened.value().recovered_steps};
+  return Subject{std::move(surface).value(), clay, recovered};
 }
 
 Result<Outcome> run_render(const RenderCommand& command, const Progress& progress) {

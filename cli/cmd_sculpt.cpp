@@ -133,33 +133,46 @@ Result<void> replay_step(const SculptOptions& options, const io::StrokeScript& s
   return {};
 }
 
+/// What a sculpture is before the script.
+struct Beginning {
+  int depth = 0;
+  std::uint64_t hash = 0;
+  std::string active;
+};
+
+Beginning beginning_of(Sculpture& sculpture) {
+  return {sculpture.undo_depth(), sculpture.hash(), sculpture.look(sculpture.active()).name};
+}
+
 /// Takes every stroke of the script back; the sculpture must then have the bits it started with.
-Result<int> undo_all(SculptTarget& target, int first_depth, std::uint64_t first_hash) {
+Result<int> undo_all(SculptTarget& target, const Beginning& first) {
   int undone = 0;
   Sculpture& sculpture = target.sculpture();
-  while (sculpture.undo_depth() > first_depth && sculpture.undo()) {
+  while (sculpture.undo_depth() > first.depth && sculpture.undo()) {
     target.record(io::HistoryStep::undo);
     ++undone;
   }
-  if (sculpture.hash() == first_hash) return undone;
+  // Which piece was selected is no step that undo takes back.
+  const PieceEdit select = SelectPiece{first.active};
+  const bool is_other = sculpture.look(sculpture.active()).name != first.active;
+  if (is_other && sculpture.apply(select)) target.record(select);
+  if (sculpture.hash() == first.hash) return undone;
   return Error{ErrorKind::internal, "after undoing " + std::to_string(undone) +
                                         " strokes the hash is " + hex(sculpture.hash()) +
-                                        " and not " + hex(first_hash) +
+                                        " and not " + hex(first.hash) +
                                         "; please report this as a bug"};
 }
 
 /// The whole script, and what it comes to saved.
 Result<Replay> work(const SculptOptions& options, const io::StrokeScript& script,
-                    SculptTarget& target, std::uint64_t first_hash, const Progress& progress) {
+                    SculptTarget& target, const Beginning& first, const Progress& progress) {
   Replay done;
-  // Steps of before the script are not its own to take back.
-  const int first_depth = target.sculpture().undo_depth();
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     auto step = replay_step(options, script, i, target, done, progress);
     if (!step) return step.error();
   }
   if (options.undo_all) {
-    const auto undone = undo_all(target, first_depth, first_hash);
+    const auto undone = undo_all(target, first);
     if (!undone) return undone.error();
     done.undone = undone.value();
   }
@@ -208,14 +221,15 @@ Result<Outcome> run_sculpt(const SculptOptions& options, const Progress& progres
   auto prepared = prepare(options, script.value(), progress);
   if (!prepared) return prepared.error();
   SculptTarget& target = prepared.value();
-  const std::uint64_t first_hash = target.sculpture().hash();
-  const auto replayed = work(options, script.value(), target, first_hash, progress);
+  // Steps of before the script are not its own to take back.
+  const Beginning first = beginning_of(target.sculpture());
+  const auto replayed = work(options, script.value(), target, first, progress);
   if (!replayed) {
     // What cannot be taken back either is told by the next command that opens the project.
     if (target.session) static_cast<void>(target.session->discard().ok());
     return replayed.error();
   }
-  Outcome outcome = outcome_of(replayed.value(), target.sculpture(), first_hash);
+  Outcome outcome = outcome_of(replayed.value(), target.sculpture(), first.hash);
   outcome.json["recovered_strokes"] = target.recovered;
   outcome.json["seconds"] = watch.seconds();
   outcome.text = sculpt_text(target.sculpture(), outcome.json, options.output);

@@ -66,6 +66,13 @@ ClayWorkerOptions worked_with(const Tool& tool, KeptStrokes& kept) {
   return worker;
 }
 
+/// The bridge serves the piece that was selected last.
+void note_piece(const Sculpture& sculpture) {
+  if (sculpture.piece_count() == 1) return;
+  print_notes({"the project has several pieces; this is '" +
+               sculpture.look(sculpture.active()).name + "', in its own frame"});
+}
+
 haptics::MeshBlockId block_name(const BlockId& id) { return {id.level, id.origin}; }
 
 haptics::MeshBlock content_of(const BlockId& id, const DisplayBlock& block) {
@@ -105,6 +112,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::open(const BridgeOptions& option
   auto session = io::Session::open(options.clay.project, {}, progress);
   if (!session) return session.error();
   print_notes(session.value().notes());
+  note_piece(session.value().sculpture());
   auto opened = serve(options, tool.value(), session.value(), at, key, path_mm);
   // Nothing was done to it, so that no journal needs to tell of a session.
   if (!opened) static_cast<void>(session.value().discard().ok());
@@ -118,6 +126,7 @@ Result<std::unique_ptr<BridgeClay>> BridgeClay::serve(const BridgeOptions& optio
                                                       const std::vector<Vec3>& path_mm) {
   // Opening may have recovered a long journal.
   if (auto goes_on = check_interrupt(); !goes_on) return goes_on.error();
+  if (auto free = session.sculpture().check_unlocked(); !free) return free.error();
   if (auto on_clay = check_path_on_clay(session.clay(), path_mm); !on_clay) return on_clay.error();
   const auto top = top_of(session.clay());
   if (!top) return top.error();

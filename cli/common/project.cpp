@@ -26,6 +26,12 @@ void add_piece_option(CLI::App& command, std::string& piece) {
   command.add_option("--piece", piece, "of a project with several pieces: the one that is meant");
 }
 
+Result<void> check_no_piece(const std::filesystem::path& mesh, const std::string& piece) {
+  if (piece.empty()) return {};
+  return Error{ErrorKind::bad_input,
+               "'" + mesh.string() + "' is a mesh, which has no pieces; leave out --piece"};
+}
+
 Result<void> select_piece(const std::filesystem::path& file, const std::string& piece,
                           Sculpture& sculpture) {
   if (!piece.empty()) {

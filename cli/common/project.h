@@ -25,6 +25,9 @@ Result<io::OpenedProject> open_project(const std::filesystem::path& file,
 /// --piece of commands that work with one clay of a project; `piece` outlives the command line.
 void add_piece_option(CLI::App& command, std::string& piece);
 
+/// bad_input for a mesh, which has no pieces, where one is named.
+Result<void> check_no_piece(const std::filesystem::path& mesh, const std::string& piece);
+
 /// Makes the piece of that name the active one; "" is for a project that has only one.
 /// Errors  bad_input: no such piece; several, and no name.
 Result<void> select_piece(const std::filesystem::path& file, const std::string& piece,

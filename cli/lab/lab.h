@@ -52,6 +52,7 @@ struct LabOptions {
 
   // Of the scene `clay`.
   std::string project;  ///< "": a slab of clay
+  std::string piece;    ///< of a project with several
   haptics::ForceTool tool{haptics::ToolShape::ellipsoid, {4.0, 4.0, 4.0}, {}, {}, {}, {}};
   haptics::ForceMaterial material;
   std::size_t law = 0;     ///< energy, blanch

@@ -53,7 +53,7 @@ Result<Clay> open_clay(const LabOptions& asked, const Progress& progress) {
                    "--set is of the slab, which --project takes the place of; leave one of them "
                    "out"};
     }
-    auto opened = cli::open_clay(asked.project, "", progress);
+    auto opened = cli::open_clay(asked.project, asked.piece, progress);
     if (!opened) return opened.error();
     return std::move(opened).value().clay;
   }

@@ -88,7 +88,7 @@ void History::trim(std::int64_t budget) {
     Steps& from = undo_.empty() || (undo_.size() == 1 && !redo_.empty()) ? redo_ : undo_;
     bytes_ -= from.front().bytes;
     from.erase(from.begin());
-    ++forgotten_;
+    if (&from == &undo_) ++forgotten_;
   }
 }
 

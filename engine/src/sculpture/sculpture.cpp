@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <map>
+#include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "argil/core/hash.h"
@@ -51,21 +52,6 @@ std::int64_t bytes_of_piece(const Clay& clay) {
   return use.level_bytes + use.undo_bytes + use.mask_bytes;
 }
 
-std::int64_t bytes_held(const SculptureStep& step) {
-  std::int64_t bytes = 0;
-  for (const auto& part : step.parts) {
-    const auto* move = std::get_if<PieceMove>(&part);
-    if (move != nullptr && move->held) bytes += bytes_of_piece(*move->held->clay);
-  }
-  return bytes;
-}
-
-std::int64_t bytes_held(const std::vector<SculptureStep>& steps) {
-  std::int64_t bytes = 0;
-  for (const SculptureStep& step : steps) bytes += bytes_held(step);
-  return bytes;
-}
-
 }  // namespace
 
 std::int64_t steps_of(const Clay& clay) { return clay.undo_depth() + clay.use().steps_forgotten; }
@@ -93,6 +79,7 @@ Piece Sculpture::State::make(PieceLook look, Clay clay) {
 
 Sculpture::Sculpture(Clay clay, PieceLook look) : state_(std::make_unique<State>()) {
   assert(validate_look(look));
+  look.placement = settled(look.placement);
   state_->limits = clay.limits();
   Piece piece = state_->make(std::move(look), std::move(clay));
   // Those that it can take back are its own.
@@ -169,26 +156,91 @@ void Sculpture::State::follow() {
   const std::int64_t steps = steps_of(*piece.clay);
   assert(steps >= piece.known_steps);
   if (steps == piece.known_steps) return;
-  for (; piece.known_steps < steps; ++piece.known_steps) {
-    undo_steps.push_back({{ClayStep{piece.id}}, piece.id});
+  while (piece.known_steps < steps) {
+    make_room();
+    push({{ClayStep{piece.id}}});
+    ++piece.known_steps;
   }
-  redo_steps.clear();
 }
 
-void Sculpture::State::push(SculptureStep step) {
+void Sculpture::State::make_room() {
+  const auto room_for_one = [](auto& list) {
+    if (list.size() == list.capacity()) list.reserve(2 * list.size() + 8);
+  };
+  room_for_one(pieces);
+  room_for_one(undo_steps);
+  room_for_one(redo_steps);
+}
+
+void Sculpture::State::push(SculptureStep step) noexcept {
+  assert(undo_steps.size() < undo_steps.capacity());
   undo_steps.push_back(std::move(step));
-  redo_steps.clear();
+  drop(redo_steps, redo_steps.size());
   forget_what_is_too_much();
 }
 
-/// The oldest steps go until what they hold of removed pieces fits; the last one stays.
-void Sculpture::State::forget_what_is_too_much() {
-  std::int64_t held = bytes_held(undo_steps) + bytes_held(redo_steps);
-  std::size_t gone = 0;
-  while (held > limits.undo_bytes && gone + 1 < undo_steps.size()) {
-    held -= bytes_held(undo_steps[gone++]);
+void Sculpture::State::take_out(PieceMove& move) noexcept {
+  const auto at = pieces.begin() + static_cast<std::ptrdiff_t>(move.index);
+  move.held_bytes = bytes_of_piece(*at->clay);
+  held_bytes += move.held_bytes;
+  move.held = std::move(*at);
+  pieces.erase(at);
+}
+
+void Sculpture::State::put_back(PieceMove& move) noexcept {
+  assert(move.held && pieces.size() < pieces.capacity());
+  pieces.insert(pieces.begin() + static_cast<std::ptrdiff_t>(move.index), *std::move(move.held));
+  move.held.reset();
+  held_bytes -= std::exchange(move.held_bytes, 0);
+}
+
+/// The first so many of some steps, with the pieces that they hold.
+void Sculpture::State::drop(std::vector<SculptureStep>& steps, std::size_t oldest) noexcept {
+  for (std::size_t n = 0; n < oldest; ++n) {
+    for (const auto& part : steps[n].parts) {
+      if (const auto* move = std::get_if<PieceMove>(&part)) held_bytes -= move->held_bytes;
+    }
   }
-  undo_steps.erase(undo_steps.begin(), undo_steps.begin() + static_cast<std::ptrdiff_t>(gone));
+  steps.erase(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(oldest));
+}
+
+/// What lies farthest goes until what steps hold of removed pieces fits; the last step stays. Those
+/// that no clay remembers go now and then.
+void Sculpture::State::forget_what_is_too_much() noexcept {
+  while (held_bytes > limits.undo_bytes && undo_steps.size() + redo_steps.size() > 1) {
+    const bool is_redo = undo_steps.size() < 2 && !redo_steps.empty();
+    drop(is_redo ? redo_steps : undo_steps, 1);
+  }
+  if (undo_steps.size() <= steps_to_look_at) return;
+  try {
+    drop(undo_steps, undo_steps.size() - reachable_steps());
+  } catch (const std::bad_alloc&) {
+    // Next time: they do no harm.
+  }
+  steps_to_look_at = 2 * undo_steps.size() + 64;
+}
+
+std::size_t Sculpture::State::reachable_steps() const {
+  // Ids count from 0: of each clay, those of removed pieces included, how many it has left.
+  std::vector<int> left(next_id, 0);
+  for (const Piece& piece : pieces) left[piece.id] = piece.clay->undo_depth();
+  if (held_bytes > 0) {
+    for (const SculptureStep& step : undo_steps) {
+      for (const auto& part : step.parts) {
+        const auto* move = std::get_if<PieceMove>(&part);
+        if (move != nullptr && move->held) left[move->held->id] = move->held->clay->undo_depth();
+      }
+    }
+  }
+  std::size_t count = 0;
+  for (auto step = undo_steps.rbegin(); step != undo_steps.rend(); ++step) {
+    for (const auto& part : step->parts) {
+      const auto* own = std::get_if<ClayStep>(&part);
+      if (own != nullptr && left[own->piece]-- == 0) return count;
+    }
+    ++count;
+  }
+  return count;
 }
 
 bool Sculpture::State::turn(SculptureStep& step, bool is_undo) {
@@ -201,32 +253,23 @@ bool Sculpture::State::turn(SculptureStep& step, bool is_undo) {
     piece.known_steps = steps_of(*piece.clay);
   }
   const auto turn_part = [&](auto& part) {
-    if (auto* other = std::get_if<OtherLook>(&part)) {
-      std::swap(of(other->piece).look, other->look);
-    } else if (auto* move = std::get_if<PieceMove>(&part)) {
-      const auto at = pieces.begin() + static_cast<std::ptrdiff_t>(move->index);
-      if (move->held) {
-        pieces.insert(at, *std::exchange(move->held, std::nullopt));
-      } else {
-        move->held = std::move(*at);
-        pieces.erase(at);
-      }
-    }
+    if (auto* other = std::get_if<OtherLook>(&part)) std::swap(of(other->piece).look, other->look);
+    auto* move = std::get_if<PieceMove>(&part);
+    if (move != nullptr) move->held ? put_back(*move) : take_out(*move);
   };
   if (is_undo) {
     std::for_each(step.parts.rbegin(), step.parts.rend(), turn_part);
   } else {
     std::for_each(step.parts.begin(), step.parts.end(), turn_part);
   }
-  const bool is_gone = std::none_of(pieces.begin(), pieces.end(),
-                                    [this](const Piece& piece) { return piece.id == active; });
-  if (is_gone) active = step.goes_on;
+  if (const auto& now = is_undo ? step.before : step.after) active = *now;
   return true;
 }
 
 bool Sculpture::undo() {
   if (state_->is_stroke_open()) return false;
   state_->follow();
+  state_->make_room();
   if (state_->undo_steps.empty()) return false;
   if (!state_->turn(state_->undo_steps.back(), true)) return false;
   state_->redo_steps.push_back(std::move(state_->undo_steps.back()));
@@ -237,6 +280,7 @@ bool Sculpture::undo() {
 bool Sculpture::redo() {
   if (state_->is_stroke_open()) return false;
   state_->follow();
+  state_->make_room();
   if (state_->redo_steps.empty()) return false;
   if (!state_->turn(state_->redo_steps.back(), false)) return false;
   state_->undo_steps.push_back(std::move(state_->redo_steps.back()));
@@ -246,24 +290,12 @@ bool Sculpture::redo() {
 
 int Sculpture::undo_depth() {
   state_->follow();
-  // A clay may have forgotten its oldest steps: how many each has left, removed pieces included.
-  std::map<PieceId, int> left;
-  for (const Piece& piece : state_->pieces) left[piece.id] = piece.clay->undo_depth();
-  for (const SculptureStep& step : state_->undo_steps) {
-    for (const auto& part : step.parts) {
-      const auto* move = std::get_if<PieceMove>(&part);
-      if (move != nullptr && move->held) left[move->held->id] = move->held->clay->undo_depth();
-    }
-  }
-  int depth = 0;
-  for (auto step = state_->undo_steps.rbegin(); step != state_->undo_steps.rend(); ++step) {
-    for (const auto& part : step->parts) {
-      const auto* own = std::get_if<ClayStep>(&part);
-      if (own != nullptr && left[own->piece]-- == 0) return depth;
-    }
-    ++depth;
-  }
-  return depth;
+  return static_cast<int>(state_->reachable_steps());
+}
+
+int Sculpture::redo_depth() {
+  state_->follow();
+  return static_cast<int>(state_->redo_steps.size());
 }
 
 }  // namespace argil

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is done to the list of pieces, kind by kind: first all that may fail, then the list.
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -15,43 +17,57 @@
 namespace argil {
 namespace {
 
-/// How many bytes the letter that begins with this one has; 0 where none can.
-std::size_t letter_bytes(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first < 0xE0) return 2;
-  if (first >= 0xE0 && first < 0xF0) return 3;
-  return first >= 0xF0 && first < 0xF5 ? 4 : 0;
+struct Letter {
+  std::size_t bytes = 0;  ///< 0: no UTF-8
+  char32_t code = 0;
+};
+
+/// The first letter of a text that is not empty.
+Letter first_letter(std::string_view text) {
+  const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
+  const unsigned char first = byte(0);
+  const std::size_t bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if ((first >= 0x80 && first < 0xC2) || first > 0xF4 || bytes > text.size()) return {};
+  char32_t code = bytes == 1 ? first : first & (0x7FU >> bytes);
+  for (std::size_t n = 1; n < bytes; ++n) {
+    if ((byte(n) & 0xC0) != 0x80) return {};
+    code = code << 6 | (byte(n) & 0x3FU);
+  }
+  // Written longer than it need be, half of a pair, or beyond the last letter there is.
+  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};
+  const bool is_half = code >= 0xD800 && code < 0xE000;
+  if (code < kLeast[bytes] || is_half || code > 0x10FFFF) return {};
+  return {bytes, code};
+}
+
+/// What has no shape of its own: controls, and marks that turn the direction of a line about.
+bool is_control(char32_t code) {
+  const auto is_in = [code](char32_t first, char32_t last) {
+    return code >= first && code <= last;
+  };
+  return code < 0x20 || is_in(0x7F, 0x9F) || is_in(0x200B, 0x200F) || is_in(0x2028, 0x202E) ||
+         is_in(0x2060, 0x206F) || code == 0xFEFF;
 }
 
 bool is_printable_utf8(std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const auto first = static_cast<unsigned char>(text[at]);
-    const std::size_t bytes = letter_bytes(first);
-    if (bytes == 0 || at + bytes > text.size() || first < 0x20 || first == 0x7F) return false;
-    for (std::size_t n = 1; n < bytes; ++n) {
-      if ((static_cast<unsigned char>(text[at + n]) & 0xC0) != 0x80) return false;
-    }
-    // Written too long, half of a pair, or beyond the last letter there is.
-    const auto second = static_cast<unsigned char>(bytes > 1 ? text[at + 1] : '\0');
-    if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
-        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90)) {
-      return false;
-    }
-    at += bytes;
+  while (!text.empty()) {
+    const Letter letter = first_letter(text);
+    if (letter.bytes == 0 || is_control(letter.code)) return false;
+    text.remove_prefix(letter.bytes);
   }
   return true;
 }
 
 std::string quoted_piece(std::string_view name) { return "'" + std::string(name) + "'"; }
 
-bool is_sound_placement(const Placement& placement) {
-  const Quat& q = placement.orientation;
-  const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-  return is_in_reach(placement.position_mm) && std::isfinite(square) && square > 0.0;
+double largest_of(const Quat& q) {
+  return std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
 }
 
-Placement normalized(const Placement& placement) {
-  return {placement.position_mm, normalized(placement.orientation)};
+bool is_sound_placement(const Placement& placement) {
+  const Quat& q = placement.orientation;
+  return is_in_reach(placement.position_mm) && std::isfinite(q.w) &&
+         is_finite(Vec3{q.x, q.y, q.z}) && largest_of(q) > 0.0;
 }
 
 /// First b, then a.
@@ -87,7 +103,8 @@ class Editor {
   Result<void> check_new(const PieceLook& look) const;
   Result<Clay> clay_of(const AddPiece& add) const;
   Result<void> insert(PieceLook look, Clay clay, std::size_t index);
-  void take_out(std::size_t index, SculptureStep& step);
+  Result<void> check_memory(const Clay& clay) const;
+  PieceId next_to(std::size_t index) const;
 
   Sculpture::State& state_;
   const Progress& progress_;
@@ -122,24 +139,37 @@ Result<void> Editor::check_new(const PieceLook& look) const {
 /// At the list's place `index`, and active.
 Result<void> Editor::insert(PieceLook look, Clay clay, std::size_t index) {
   if (auto set = clay.set_limits(state_.limits); !set) return set;
-  look.placement = normalized(look.placement);
+  look.placement = settled(look.placement);
+  state_.make_room();
   Piece piece = state_.make(std::move(look), std::move(clay));
-  const PieceId before = std::exchange(state_.active, piece.id);
+  SculptureStep step{{PieceMove{index}}, state_.active, piece.id};
+  state_.active = piece.id;
   state_.pieces.insert(state_.pieces.begin() + static_cast<std::ptrdiff_t>(index),
                        std::move(piece));
-  state_.push({{PieceMove{index, std::nullopt}}, before});
+  state_.push(std::move(step));
   return {};
 }
 
-/// Another piece becomes active where this one was.
-void Editor::take_out(std::size_t index, SculptureStep& step) {
+/// Another clay as large as this one must fit beside those that are there, as if they were one.
+Result<void> Editor::check_memory(const Clay& clay) const {
+  const ClayUse own = state_.active_piece().clay->use();
+  const auto bytes_of = [](const ClayUse& use) {
+    return use.level_bytes + use.undo_bytes + use.mask_bytes;
+  };
+  const std::int64_t most = own.free_bytes + bytes_of(own);
+  std::int64_t taken = state_.held_bytes;
+  for (const Piece& piece : state_.pieces) taken += bytes_of(piece.clay->use());
+  const ClayUse more = clay.use();
+  if (taken + more.level_bytes + more.mask_bytes <= most) return {};
+  return Error{ErrorKind::memory,
+               "another piece of " + std::to_string(more.level_bytes >> 20) +
+                   " MB does not fit beside those that are there; remove some, or resample them"};
+}
+
+/// Which piece goes on where one is taken out.
+PieceId Editor::next_to(std::size_t index) const {
   assert(state_.pieces.size() > 1);
-  const auto at = state_.pieces.begin() + static_cast<std::ptrdiff_t>(index);
-  const bool was_active = at->id == state_.active;
-  step.parts.emplace_back(PieceMove{index, std::move(*at)});
-  state_.pieces.erase(at);
-  step.goes_on = state_.pieces[std::min(index, state_.pieces.size() - 1)].id;
-  if (was_active) state_.active = step.goes_on;
+  return state_.pieces[index + 1 < state_.pieces.size() ? index + 1 : index - 1].id;
 }
 
 Result<void> Editor::operator()(const SelectPiece& select) {
@@ -150,7 +180,10 @@ Result<void> Editor::operator()(const SelectPiece& select) {
 }
 
 Result<Clay> Editor::clay_of(const AddPiece& add) const {
-  if (add.clay != nullptr) return copy_of(*add.clay);
+  if (add.clay != nullptr) {
+    if (auto fits = check_memory(*add.clay); !fits) return fits.error();
+    return copy_of(*add.clay);
+  }
   ClayOptions options = state_.active_piece().clay->options();
   if (add.voxel_mm != 0.0) options.voxel_mm = add.voxel_mm;
   auto imported = import_mesh(*add.mesh, options, progress_);
@@ -176,6 +209,7 @@ Result<void> Editor::operator()(const CopyPiece& copy) {
   look.name = copy.copy;
   look.is_locked = false;
   if (auto valid = check_new(look); !valid) return valid;
+  if (auto fits = check_memory(*piece.clay); !fits) return fits;
   return insert(std::move(look), copy_of(*piece.clay), index.value() + 1);
 }
 
@@ -186,13 +220,18 @@ Result<void> Editor::operator()(const RemovePiece& remove) {
     return bad_input("the piece " + quoted_piece(remove.name) +
                      " is the last one; a sculpture has at least one");
   }
-  SculptureStep step;
-  take_out(index.value(), step);
+  state_.make_room();
+  const PieceId active = state_.active;
+  const bool is_active = state_.pieces[index.value()].id == active;
+  SculptureStep step{
+      {PieceMove{index.value()}}, active, is_active ? next_to(index.value()) : active};
+  state_.take_out(std::get<PieceMove>(step.parts.front()));
+  state_.active = *step.after;
   state_.push(std::move(step));
   return {};
 }
 
-/// Of a locked piece only the lock, and whether it is seen.
+/// Of a locked piece everything but its place.
 Result<void> Editor::operator()(const ChangePiece& change) {
   const auto index = index_of(change.name);
   if (!index) return index.error();
@@ -211,9 +250,11 @@ Result<void> Editor::operator()(const ChangePiece& change) {
   if (piece.look.is_locked && look.is_locked && change.placement) {
     return bad_input("the piece " + quoted_piece(change.name) + " is locked; unlock it first");
   }
-  look.placement = normalized(look.placement);
-  std::swap(piece.look, look);
-  state_.push({{OtherLook{piece.id, std::move(look)}}, piece.id});
+  if (change.placement) look.placement = settled(look.placement);
+  state_.make_room();
+  SculptureStep step{{OtherLook{piece.id, std::move(look)}}};
+  std::swap(piece.look, std::get<OtherLook>(step.parts.front()).look);
+  state_.push(std::move(step));
   return {};
 }
 
@@ -225,28 +266,46 @@ Result<void> Editor::operator()(const MergePiece& merge) {
   if (index.value() == other_index.value()) {
     return bad_input("a piece cannot be merged with itself; name two pieces");
   }
+  state_.make_room();
   Piece& piece = state_.pieces[index.value()];
   const Piece& other = state_.pieces[other_index.value()];
+  SculptureStep step{{ClayStep{piece.id}}};
+  if (!merge.keeps_other) {
+    step.parts.emplace_back(PieceMove{other_index.value()});
+    step.before = state_.active;
+    // What was merged into is what goes on.
+    step.after = other.id == state_.active ? piece.id : state_.active;
+  }
   const Combine combine{merge.kind, other.clay, nullptr,
                         seen_from(piece.look.placement, other.look.placement)};
   auto combined = piece.clay->apply(Operation(combine), progress_);
   if (!combined) return combined.error();
   piece.known_steps = steps_of(*piece.clay);
-  SculptureStep step;
-  step.parts.emplace_back(ClayStep{piece.id});
-  const PieceId merged = piece.id;
-  const bool was_active = other.id == state_.active;
   if (!merge.keeps_other) {
-    take_out(other_index.value(), step);
-    // What was merged into is what goes on.
-    if (was_active) state_.active = merged;
+    state_.take_out(std::get<PieceMove>(step.parts.back()));
+    state_.active = *step.after;
   }
-  step.goes_on = merged;
   state_.push(std::move(step));
   return {};
 }
 
 }  // namespace
+
+Placement settled(const Placement& placement) {
+  Vec3 at = placement.position_mm;
+  Quat q = placement.orientation;
+  // First by the largest, or squares of what is tiny or huge are lost.
+  const double largest = largest_of(q);
+  assert(largest > 0.0);
+  const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  constexpr double kRounding = 1e-12;
+  if (!(std::abs(square - 1.0) < kRounding)) {
+    q = normalized(Quat{q.w / largest, q.x / largest, q.y / largest, q.z / largest});
+  }
+  // -0 + 0 is 0.
+  at += Vec3{};
+  return {at, {q.w + 0.0, q.x + 0.0, q.y + 0.0, q.z + 0.0}};
+}
 
 Vec3 placed(const Placement& placement, const Vec3& point_mm) noexcept {
   return rotate(placement.orientation, point_mm) + placement.position_mm;
@@ -285,6 +344,8 @@ Result<Sculpture> Sculpture::of(std::vector<ReadyPiece> pieces, std::size_t acti
     if (state->find(piece.look.name)) {
       return bad_input("two pieces are called " + quoted_piece(piece.look.name));
     }
+    piece.look.placement = settled(piece.look.placement);
+    if (auto set = piece.clay.set_limits(state->limits); !set) return set.error();
     state->pieces.push_back(state->make(std::move(piece.look), std::move(piece.clay)));
   }
   state->active = state->pieces[active].id;
@@ -301,8 +362,14 @@ Result<void> Sculpture::apply(const PieceEdit& edit, const Progress& progress) {
   if (state_->is_stroke_open()) {
     return bad_input("a stroke is open; end or cancel it before pieces change");
   }
-  state_->follow();
-  return std::visit(Editor(*state_, progress), edit);
+  try {
+    state_->follow();
+    return std::visit(Editor(*state_, progress), edit);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::memory,
+                 "not enough memory for another piece; remove some, or close "
+                 "other programs"};
+  }
 }
 
 }  // namespace argil

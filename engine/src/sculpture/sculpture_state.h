@@ -39,14 +39,15 @@ struct OtherLook {
 /// A piece that comes or goes, with its place in the list.
 struct PieceMove {
   std::size_t index = 0;
-  std::optional<Piece> held;  ///< the piece, while it is not in the list
+  std::optional<Piece> held = std::nullopt;  ///< the piece, while it is not in the list
+  std::int64_t held_bytes = 0;               ///< of it
 };
 
 struct SculptureStep {
   std::vector<std::variant<ClayStep, OtherLook, PieceMove>> parts;  ///< in the order they were done
-  /// Active where the piece that is active goes; there before the step and after it. Of a step
-  /// that has no PieceMove any.
-  PieceId goes_on = 0;
+  /// Which piece is active on either side of a step that a piece comes or goes with.
+  std::optional<PieceId> before = std::nullopt;
+  std::optional<PieceId> after = std::nullopt;
 };
 
 struct Sculpture::State {
@@ -56,6 +57,8 @@ struct Sculpture::State {
   ClayLimits limits;
   std::vector<SculptureStep> undo_steps;
   std::vector<SculptureStep> redo_steps;
+  std::int64_t held_bytes = 0;        ///< of pieces that steps hold
+  std::size_t steps_to_look_at = 64;  ///< when there are so many, those that are of no use go
 
   std::optional<std::size_t> find(std::string_view name) const;
   std::size_t index_of(PieceId id) const;
@@ -67,14 +70,26 @@ struct Sculpture::State {
 
   /// Takes note of the steps that the active clay made by itself.
   void follow();
+  /// Room for one piece and one step more. What takes memory is done here, before anything changes:
+  /// the next three cannot fail then.
+  void make_room();
   /// A new step; what could be repeated no longer can.
-  void push(SculptureStep step);
-  void forget_what_is_too_much();
+  void push(SculptureStep step) noexcept;
+  void take_out(PieceMove& move) noexcept;
+  void put_back(PieceMove& move) noexcept;
+  void drop(std::vector<SculptureStep>& steps, std::size_t oldest) noexcept;
+  void forget_what_is_too_much() noexcept;
+  /// How many of the steps can be taken back: a clay may have forgotten its oldest.
+  std::size_t reachable_steps() const;
   bool is_stroke_open() const { return active_piece().clay->is_stroke_open(); }
 
   /// Does a step the other way round; false, and nothing done, where a clay has forgotten it.
   bool turn(SculptureStep& step, bool is_undo);
 };
+
+/// A placement as pieces have it: a quaternion of unit length, no negative zeros. Once more changes
+/// no bit.
+Placement settled(const Placement& placement);
 
 /// Of a clay: all steps it ever made but for those taken back.
 std::int64_t steps_of(const Clay& clay);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct DistanceSums {
   double distance = 0.0;
   double square = 0.0;
   double max = 0.0;
+  std::int64_t samples = 0;
 
   void add(double d, double weight) noexcept {
     assert(d >= 0.0 && weight >= 0.0);
@@ -28,16 +30,19 @@ struct DistanceSums {
     distance += weight * d;
     square += weight * d * d;
     max = std::max(max, d);
+    ++samples;
   }
   void add(const DistanceSums& s) noexcept {
     area += s.area;
     distance += s.distance;
     square += s.square;
     max = std::max(max, s.max);
+    samples += s.samples;
   }
   mesh::DistanceSummary summary() const noexcept {
     const double least = std::numeric_limits<double>::min();
-    return {max, distance / std::max(area, least), std::sqrt(square / std::max(area, least))};
+    return {max, distance / std::max(area, least), std::sqrt(square / std::max(area, least)),
+            samples};
   }
 };
 

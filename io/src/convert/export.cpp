@@ -117,6 +117,8 @@ Result<void> Export::certify() {
   certificate.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
   certificate.voxel_mm = clay_.options().voxel_mm;
   certificate.tolerance_voxels = clay_.options().tolerance_voxels;
+  // What was collapsed after the proof is not in it.
+  certificate.proven_max_mm = report_.collapsed_edges == 0 ? options_.max_error_mm : 0.0;
   certificate.asked_max_error_mm = options_.max_error_mm;
   certificate.asked_triangles = options_.triangles;
   certificate.clay_hash = clay_.hash();

@@ -44,7 +44,7 @@ Result<Repeated> repeat(Stored& stored, const Journal& journal, const Progress& 
     const auto within = [&](std::string_view, double fraction) {
       return !progress || progress("recover", (static_cast<double>(i - first) + fraction) / count);
     };
-    const auto applied = within("", 0.0) ? apply_step(*stored.sculpture, journal.steps[i], within)
+    const auto applied = within("", 0.0) ? repeat_step(*stored.sculpture, journal.steps[i], within)
                                          : Result<StrokeReport>(Error{ErrorKind::interrupted, ""});
     if (applied) continue;
     if (applied.error().kind == ErrorKind::interrupted) {

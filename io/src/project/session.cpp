@@ -287,6 +287,10 @@ std::size_t Session::step_count() const noexcept { return state_->steps; }
 /// Whether repeating the step takes longer than an autosave does: it measures a surface, or brings
 /// another solid onto the lattice. A cut only pays for what it changes.
 bool is_slow(const ScriptStep& step) {
+  if (const auto* edit = std::get_if<PieceEdit>(&step)) {
+    const auto* add = std::get_if<AddPiece>(edit);
+    return (add != nullptr && add->mesh != nullptr) || std::holds_alternative<MergePiece>(*edit);
+  }
   const auto* operation = std::get_if<Operation>(&step);
   return operation != nullptr && !std::holds_alternative<Cut>(*operation);
 }

@@ -15,6 +15,10 @@
 
 namespace argil::io {
 
+/// As apply_step, also where the active piece is locked: what a journal tells was done.
+Result<StrokeReport> repeat_step(Sculpture& sculpture, const ScriptStep& step,
+                                 const Progress& progress);
+
 // One line of a stroke script or of a journal, which is a script too (docs/files.md). No line ends
 // here: a line is what stands between them.
 

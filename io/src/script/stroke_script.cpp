@@ -86,7 +86,6 @@ Result<StrokeReport> apply_one(Clay&, const PieceEdit&, const Progress&) {
 
 template <class Step>
 Result<StrokeReport> apply_one(Sculpture& sculpture, const Step& step, const Progress& progress) {
-  if (auto free = sculpture.check_unlocked(); !free) return free.error();
   return apply_one(sculpture.clay(), step, progress);
 }
 
@@ -105,6 +104,16 @@ Result<StrokeReport> apply_one(Sculpture& sculpture, const PieceEdit& edit,
 
 Result<StrokeReport> apply_step(Sculpture& sculpture, const ScriptStep& step,
                                 const Progress& progress) {
+  const bool is_of_the_list =
+      std::holds_alternative<HistoryStep>(step) || std::holds_alternative<PieceEdit>(step);
+  if (!is_of_the_list) {
+    if (auto free = sculpture.check_unlocked(); !free) return free.error();
+  }
+  return repeat_step(sculpture, step, progress);
+}
+
+Result<StrokeReport> repeat_step(Sculpture& sculpture, const ScriptStep& step,
+                                 const Progress& progress) {
   return std::visit([&](const auto& chosen) { return apply_one(sculpture, chosen, progress); },
                     step);
 }

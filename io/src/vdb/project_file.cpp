@@ -101,21 +101,36 @@ Result<std::span<const std::byte>> checked_bytes(const fs::path& file,
       "file that argil saved");
 }
 
+/// The grids of a file by name, and whether each was read.
+using GridNames = std::map<std::string, bool>;
+
+GridNames names_in(const VdbContent& content) {
+  GridNames names;
+  for (const NamedGrid& grid : content.grids) names.try_emplace(grid.name, grid.is_read);
+  return names;
+}
+
 /// Hands the grids of one piece to the clay that is made of them, and keeps what it learned.
 class PieceReader {
  public:
   PieceReader(const fs::path& file, const PieceHeader& header)
-      : file_(file), header_(header), builder_(header.options, header.levels) {}
+      : file_(file),
+        header_(header),
+        builder_(header.options, header.levels),
+        fits_(static_cast<std::size_t>(header.levels) + 1, false) {}
 
-  /// Null where the grid is none of this piece's, or does not fit.
-  LevelSink* sink_for(const GridHead& head);
+  /// Null where the grid does not fit. `level`: levels() for the mask; each once.
+  LevelSink* sink_for(const GridHead& head, int level);
   /// What is wrong, in one order; else the clay with its hash.
-  Result<BuiltClay> finish(const VdbContent& content) &&;
+  Result<BuiltClay> finish(const GridNames& grids) &&;
+
+  /// Of levels, then of the mask, if there is one.
+  std::vector<std::string> grid_names() const;
 
  private:
-  Result<void> check_grid(const VdbContent& content, const std::string& name) const;
-  Result<void> check_level(const VdbContent& content, int level) const;
-  Result<void> check_mask(const VdbContent& content) const;
+  Result<void> check_grid(const GridNames& grids, const std::string& name) const;
+  Result<void> check_level(const GridNames& grids, int level) const;
+  Result<void> check_mask(const GridNames& grids) const;
   Result<void> check_nesting() const;
   bool is_placed(const GridHead& head, double voxel_mm) const {
     return *head.transform == *grid_transform(voxel_mm, header_.look.placement);
@@ -124,33 +139,33 @@ class PieceReader {
   const fs::path& file_;
   const PieceHeader& header_;
   ClayBuilder builder_;
-  /// Of the first grid of each name: whether it has the transform and background that its level
-  /// has, so that it was taken.
-  std::map<std::string, bool> fits_;
+  /// Of levels and mask: whether the grid has the transform and background that it should have, so
+  /// that it was taken.
+  std::vector<bool> fits_;
 };
 
-/// The first grid of a name counts, as far as it fits.
-LevelSink* PieceReader::sink_for(const GridHead& head) {
-  const bool is_mask = header_.has_mask && head.name == header_.mask_name();
-  int level = 0;
-  while (!is_mask && level < header_.levels && head.name != header_.level_name(level)) ++level;
-  if (level == header_.levels) return nullptr;
-  const auto [entry, is_first] = fits_.try_emplace(head.name, false);
-  if (!is_first) return nullptr;
-  bool& fits = entry->second;
-  if (is_mask) {
-    fits = is_placed(head, header_.mask_voxel_mm());
-    return fits ? &builder_.mask(head.background) : nullptr;
-  }
-  fits = head.background == builder_.band_mm(level) && is_placed(head, builder_.voxel_mm(level));
-  return fits ? &builder_.level(level) : nullptr;
+std::vector<std::string> PieceReader::grid_names() const {
+  std::vector<std::string> names;
+  for (int level = 0; level < header_.levels; ++level) names.push_back(header_.level_name(level));
+  if (header_.has_mask) names.push_back(header_.mask_name());
+  return names;
+}
+
+LevelSink* PieceReader::sink_for(const GridHead& head, int level) {
+  const bool is_mask = level == header_.levels;
+  const bool fits = is_mask ? is_placed(head, header_.mask_voxel_mm())
+                            : head.background == builder_.band_mm(level) &&
+                                  is_placed(head, builder_.voxel_mm(level));
+  fits_[static_cast<std::size_t>(level)] = fits;
+  if (!fits) return nullptr;
+  return is_mask ? &builder_.mask(head.background) : &builder_.level(level);
 }
 
 /// Success where there is a grid of that name that was read; the error names what it is instead.
-Result<void> PieceReader::check_grid(const VdbContent& content, const std::string& name) const {
-  for (const NamedGrid& named : content.grids) {
-    if (named.name != name) continue;
-    if (named.is_read) return {};
+Result<void> PieceReader::check_grid(const GridNames& grids, const std::string& name) const {
+  const auto found = grids.find(name);
+  if (found != grids.end() && found->second) return {};
+  if (found != grids.end()) {
     return refused_project(file_,
                            "has a grid '" + name + "' that is not of type float on cubic voxels");
   }
@@ -162,10 +177,10 @@ Result<void> PieceReader::check_grid(const VdbContent& content, const std::strin
                                     std::to_string(header_.levels) + " levels; use an older copy");
 }
 
-Result<void> PieceReader::check_level(const VdbContent& content, int level) const {
+Result<void> PieceReader::check_level(const GridNames& grids, int level) const {
   const std::string name = header_.level_name(level);
-  if (auto there = check_grid(content, name); !there) return there;
-  if (!fits_.at(name)) {
+  if (auto there = check_grid(grids, name); !there) return there;
+  if (!fits_[static_cast<std::size_t>(level)]) {
     return refused_project(file_,
                            "has a grid '" + name + "' of another voxel size or place than it says");
   }
@@ -175,10 +190,10 @@ Result<void> PieceReader::check_level(const VdbContent& content, int level) cons
                                     "copy");
 }
 
-Result<void> PieceReader::check_mask(const VdbContent& content) const {
+Result<void> PieceReader::check_mask(const GridNames& grids) const {
   const std::string name = header_.mask_name();
-  if (auto there = check_grid(content, name); !there) return there;
-  if (!fits_.at(name)) {
+  if (auto there = check_grid(grids, name); !there) return there;
+  if (!fits_.back()) {
     return refused_project(
         file_, "has a grid '" + name + "' of another voxel size or place; use an older copy");
   }
@@ -201,12 +216,12 @@ Result<void> PieceReader::check_nesting() const {
                  " in level " + std::to_string(problem->level + 1) + "; use an older copy");
 }
 
-Result<BuiltClay> PieceReader::finish(const VdbContent& content) && {
+Result<BuiltClay> PieceReader::finish(const GridNames& grids) && {
   for (int level = 0; level < header_.levels; ++level) {
-    if (auto sound = check_level(content, level); !sound) return sound.error();
+    if (auto sound = check_level(grids, level); !sound) return sound.error();
   }
   if (header_.has_mask) {
-    if (auto sound = check_mask(content); !sound) return sound.error();
+    if (auto sound = check_mask(grids); !sound) return sound.error();
   }
   if (auto nested = check_nesting(); !nested) return nested.error();
   return std::move(builder_).finish();
@@ -228,21 +243,29 @@ class ProjectReader {
   const fs::path& file_;
   std::optional<Result<ProjectHeader>> header_;
   std::deque<PieceReader> pieces_;  ///< once the header is sound; they stay where they are
+  struct Wanted {
+    PieceReader* piece;
+    int level;
+  };
+  std::map<std::string, Wanted> wanted_;  ///< grids that have not come yet
 };
 
 void ProjectReader::take_header(const openvdb::MetaMap& meta) {
   if (header_) return;
   header_ = read_project_header(file_, meta);
   if (!*header_) return;
-  for (const PieceHeader& piece : header_->value().pieces) pieces_.emplace_back(file_, piece);
+  for (const PieceHeader& header : header_->value().pieces) {
+    PieceReader& piece = pieces_.emplace_back(file_, header);
+    int level = 0;
+    for (const std::string& name : piece.grid_names()) wanted_[name] = {&piece, level++};
+  }
 }
 
 LevelSink* ProjectReader::sink_for(const openvdb::MetaMap& meta, const GridHead& head) {
   take_header(meta);
-  for (PieceReader& piece : pieces_) {
-    if (LevelSink* sink = piece.sink_for(head)) return sink;
-  }
-  return nullptr;
+  // The first grid of a name counts, as far as it fits.
+  const auto node = wanted_.extract(head.name);
+  return node ? node.mapped().piece->sink_for(head, node.mapped().level) : nullptr;
 }
 
 Result<void> ProjectReader::check_hash(std::uint64_t hash) const {
@@ -258,8 +281,9 @@ Result<Sculpture> ProjectReader::finish(const VdbContent& content) {
   ProjectHeader& header = header_->value();
   std::vector<Sculpture::ReadyPiece> ready;
   std::uint64_t hash = 0;
+  const GridNames grids = names_in(content);
   for (std::size_t n = 0; n < pieces_.size(); ++n) {
-    auto built = std::move(pieces_[n]).finish(content);
+    auto built = std::move(pieces_[n]).finish(grids);
     if (!built) return built.error();
     hash = built.value().hash;
     ready.push_back({header.pieces[n].look, std::move(built.value().clay)});
@@ -343,7 +367,7 @@ Result<Clay> load_project(const fs::path& file) {
   if (!sculpture) return sculpture.error();
   if (sculpture.value().piece_count() == 1) return std::move(sculpture.value()).take_clay();
   return refused_project(file, "has several pieces, " + names_of(sculpture.value()) +
-                                   ", where one clay is wanted; merge them, or save one alone");
+                                   ", where one clay is wanted; merge them first");
 }
 
 }  // namespace argil::io

@@ -33,7 +33,7 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 // More than any project has, and so few that a wrong count costs nothing.
-constexpr std::uint32_t kMostGrids = 64;
+constexpr std::uint32_t kMostGrids = 25'000;  // of 1000 pieces with all their levels and masks
 constexpr std::uint32_t kMostNameBytes = 4096;
 
 /// What a file says that it must not.

@@ -30,6 +30,7 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Certificate& 
     add(name + "_max_mm", text_of(d.max_mm));
     add(name + "_mean_mm", text_of(d.mean_mm));
     add(name + "_rms_mm", text_of(d.rms_mm));
+    add(name + "_samples", text_of(d.samples));
   };
   add("units", "mm");
   add_distances("mesh_to_field", certificate.error.mesh_to_field);
@@ -39,6 +40,7 @@ std::vector<std::pair<std::string, std::string>> metadata_of(const Certificate& 
   add("surface_triangles", text_of(certificate.surface_triangles));
   add("voxel_mm", text_of(certificate.voxel_mm));
   add("tolerance_voxels", text_of(certificate.tolerance_voxels));
+  if (certificate.proven_max_mm > 0.0) add("proven_max_mm", text_of(certificate.proven_max_mm));
   if (certificate.asked_max_error_mm > 0.0) {
     add("asked_max_error_mm", text_of(certificate.asked_max_error_mm));
   }

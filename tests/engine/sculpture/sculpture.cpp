@@ -98,8 +98,6 @@ TEST(Sculpture, UndoesAndRepeatsEditsBitForBit) {
   for (const PieceEdit& edit : many_edits()) {
     const auto done = sculpture.apply(edit);
     ASSERT_TRUE(done) << done.error().message;
-    // The hash tells which piece is active, and undo does not bring that back where it need not.
-    ASSERT_TRUE(sculpture.apply(SelectPiece{"Head"}));
     hashes.push_back(sculpture.hash());
   }
   EXPECT_EQ(sculpture.undo_depth(), static_cast<int>(hashes.size()) - 1);
@@ -155,6 +153,71 @@ TEST(Sculpture, RemovedPieceComesBackWithAllThatCanBeUndone) {
   ASSERT_TRUE(sculpture.undo());
   EXPECT_EQ(sculpture.piece_count(), 1U);
   EXPECT_EQ(sculpture.undo_depth(), 0);
+}
+
+/// Whoever undoes and repeats goes on as if nothing had been.
+TEST(Sculpture, UndoAndRedoAreNoChange) {
+  for (std::size_t steps = 1; steps <= many_edits().size(); ++steps) {
+    Sculpture sculpture(small_ball(), {.name = "Head"});
+    for (std::size_t n = 0; n < steps; ++n) {
+      ASSERT_TRUE(sculpture.apply(many_edits()[n]));
+    }
+    const std::uint64_t hash = sculpture.hash();  // which piece is active included
+    EXPECT_EQ(sculpture.redo_depth(), 0);
+    ASSERT_TRUE(sculpture.undo());
+    EXPECT_EQ(sculpture.redo_depth(), 1);
+    ASSERT_TRUE(sculpture.redo());
+    EXPECT_EQ(sculpture.hash(), hash) << steps;
+  }
+}
+
+TEST(Sculpture, ForgottenRedoIsNoStep) {
+  Sculpture sculpture = head_with_nose();
+  for (unsigned n = 0; n < 3; ++n) {
+    ASSERT_TRUE(sculpture.clay().apply(dab_on_piece(n)));
+  }
+  ASSERT_TRUE(sculpture.undo() && sculpture.undo());
+  ASSERT_TRUE(sculpture.set_limits({.undo_bytes = 0}));
+  EXPECT_EQ(sculpture.undo_depth(), 2);
+  EXPECT_TRUE(sculpture.undo());
+  EXPECT_TRUE(sculpture.undo()) << "the nose";
+  EXPECT_EQ(sculpture.piece_count(), 1U);
+}
+
+/// Zeros have a sign, and squares of tiny numbers none at all.
+TEST(Sculpture, PlacementsAreOfOneForm) {
+  Sculpture sculpture = head_with_nose();
+  ChangePiece change{.name = "Head"};
+  change.placement = Placement{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+  ASSERT_TRUE(sculpture.apply(change));
+  const std::uint64_t still = sculpture.hash();
+  change.placement = Placement{{0.0, -0.0, 0.0}, {2.0, -0.0, 0.0, -0.0}};
+  ASSERT_TRUE(sculpture.apply(change));
+  EXPECT_EQ(sculpture.hash(), still);
+  for (const double size : {1e-170, 1e-161, 1.0, 1e200}) {
+    change.placement = Placement{{}, {size, 1.3 * size, 0.7 * size, 0.0}};
+    ASSERT_TRUE(sculpture.apply(change)) << size;
+    const Quat q = sculpture.look(0).placement.orientation;
+    EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y, 1.0, 1e-15) << size;
+    // Another change leaves it alone to the bit.
+    ASSERT_TRUE(sculpture.apply(ChangePiece{.name = "Head", .is_visible = size > 1.0}));
+    EXPECT_EQ(sculpture.look(0).placement.orientation, q);
+  }
+}
+
+TEST(Sculpture, PiecesShareOneLimitOfMemory) {
+  Sculpture sculpture(small_ball(), {.name = "Head"});
+  const ClayUse one = sculpture.clay().use();
+  ASSERT_TRUE(sculpture.set_limits({.memory_bytes = 3 * one.level_bytes}));
+  ASSERT_TRUE(sculpture.apply(CopyPiece{"Head", "A"}));
+  ASSERT_TRUE(sculpture.apply(CopyPiece{"Head", "B"}));
+  const std::uint64_t hash = sculpture.hash();
+  const auto more = sculpture.apply(CopyPiece{"Head", "C"});
+  ASSERT_FALSE(more);
+  EXPECT_EQ(more.error().kind, ErrorKind::memory);
+  EXPECT_EQ(sculpture.hash(), hash);
+  ASSERT_TRUE(sculpture.apply(RemovePiece{"A"}));
+  EXPECT_FALSE(sculpture.apply(CopyPiece{"Head", "C"})) << "it can still be taken back";
 }
 
 TEST(Sculpture, UndoDepthCountsWhatEachClayStillRemembers) {
@@ -231,6 +294,31 @@ TEST(Sculpture, MergesPiecesWhereTheyStand) {
   }
 }
 
+TEST(Sculpture, SurfaceIsOfWhatIsVisibleWhereItStands) {
+  Sculpture sculpture(small_ball(), {.name = "Head"});
+  const Placement there{{100.0, 0.0, 0.0}, normalized(Quat{1.0, 0.0, 1.0, 0.0})};
+  ASSERT_TRUE(sculpture.apply(ball_piece("Nose", {})));
+  ASSERT_TRUE(sculpture.apply(ChangePiece{.name = "Nose", .placement = there}));
+  const auto both = extract_surface(sculpture);
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both.value().triangles.size(), extract_surface(sculpture.clay(0)).triangles.size() +
+                                               extract_surface(sculpture.clay(1)).triangles.size());
+  const Box3 box = bounds(both.value());
+  EXPECT_NEAR(box.min.x, -5.0, 0.05);
+  EXPECT_NEAR(box.max.x, 103.0, 0.05);
+  EXPECT_NEAR(signed_volume(both.value()),
+              signed_volume(extract_surface(sculpture.clay(0))) +
+                  signed_volume(extract_surface(sculpture.clay(1))),
+              1e-6);
+  ASSERT_TRUE(sculpture.apply(ChangePiece{.name = "Head", .is_visible = false}));
+  const auto nose = extract_surface(sculpture);
+  ASSERT_TRUE(nose);
+  EXPECT_NEAR(bounds(nose.value()).min.x, 97.0, 0.05);
+  const auto stopped = extract_surface(sculpture, [](std::string_view, double) { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
+}
+
 TEST(Sculpture, PlacedAndUnplacedAreInverse) {
   const Placement placement{{1.0, 2.0, 3.0}, normalized(Quat{0.3, -0.4, 0.5, 0.7})};
   const Vec3 p{-4.0, 0.5, 9.0};
@@ -255,6 +343,8 @@ std::vector<RefusedEdit> refused_edits() {
       RefusedEdit{"control", ball_piece("E\nar", {}), "plain text"},
       RefusedEdit{"cut letter", ball_piece("E\xC3", {}), "plain text"},
       RefusedEdit{"surrogate", ball_piece("\xED\xA0\x80", {}), "plain text"},
+      RefusedEdit{"turns the line about", ball_piece("a\xE2\x80\xAE", {}), "plain text"},
+      RefusedEdit{"escape", ball_piece("a\xC2\x9B", {}), "plain text"},
       RefusedEdit{"overlong", ball_piece("\xC0\xAF", {}), "plain text"},
       RefusedEdit{"long", ball_piece(std::string(64, 'a'), {}), "63"},
       RefusedEdit{"nothing", AddPiece{}, "give one of them"},

@@ -82,6 +82,10 @@ TEST(ExportMesh, MeasuresTheErrorOfTheFileAgainstTheClay) {
   constexpr double kRounding = 1e-12;  // both interpolate, in another order
   EXPECT_GE(report.value().max_error_mm + kRounding, worst);
   EXPECT_GT(report.value().rms_error_mm, 0.0);
+  const mesh::Certificate& certificate = report.value().certificate;
+  EXPECT_EQ(certificate.proven_max_mm, 0.0) << "nothing was asked for, so nothing was proven";
+  EXPECT_GT(certificate.error.mesh_to_field.samples, report.value().triangles);
+  EXPECT_GT(certificate.error.field_to_mesh.samples, report.value().triangles / 2);
   // Beyond that, the clay itself may miss the ball by its tolerance.
   const double miss = report.value().max_error_mm + clay.options().tolerance_voxels * 0.2;
   const double slack = 4.0 * std::numbers::pi * 100.0 * miss;
@@ -153,6 +157,7 @@ TEST(ExportMesh, KeepsTheLargestErrorAsked) {
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_TRUE(report.value().verdict.printable);
   EXPECT_LE(report.value().max_error_mm, options.max_error_mm);
+  EXPECT_EQ(report.value().certificate.proven_max_mm, options.max_error_mm);
   EXPECT_LT(report.value().triangles, test::effort(2500, 10000));
   options.max_error_mm = 1e-6;
   test::fill(folder / "b.3mf", "old");

@@ -444,7 +444,8 @@ TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {
   ASSERT_TRUE(opened) << opened.error().message;
   EXPECT_EQ(opened.value().sculpture.hash(), hash_after(steps));
   EXPECT_EQ(opened.value().recovered_steps, steps);
-  EXPECT_LT(opened.value().sculpture.clay().undo_depth(), static_cast<int>(steps)) << "all was repeated";
+  EXPECT_LT(opened.value().sculpture.clay().undo_depth(), static_cast<int>(steps))
+      << "all was repeated";
 }
 
 Stroke mask_stroke(unsigned n) {

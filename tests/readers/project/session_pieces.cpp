@@ -84,6 +84,24 @@ TEST_F(SessionPieces, AreRecoveredBitForBitAfterEachStep) {
   }
 }
 
+/// What was done is told to be repeated, whatever is locked: by a program that did not ask.
+TEST_F(SessionPieces, JournalIsRepeatedOnLockedPieces) {
+  std::uint64_t hash = 0;
+  {
+    auto session = Session::create(file_, test::life_start());
+    ASSERT_TRUE(session);
+    sculpt(session.value(), PieceEdit(ChangePiece{.name = "Clay", .is_locked = true}));
+    std::mt19937 random(3);
+    const Stroke stroke = random_dab(random, 6.0);
+    ASSERT_TRUE(session.value().clay().apply(stroke));
+    session.value().record(stroke);
+    hash = session.value().sculpture().hash();
+  }
+  const auto opened = open_project(file_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  EXPECT_EQ(opened.value().sculpture.hash(), hash);
+}
+
 TEST_F(SessionPieces, GoOnUnderAnotherNameWithAllThatCanBeUndone) {
   auto session = Session::create(file_, test::life_start());
   ASSERT_TRUE(session);

@@ -103,6 +103,17 @@ TEST_F(SculptureFile, OfSeveralPiecesIsNoSingleClay) {
   EXPECT_THAT(clay.error().message, AllOf(HasSubstr("'Ball'"), HasSubstr("merge")));
 }
 
+TEST_F(SculptureFile, HoldsHundredsOfGrids) {
+  Sculpture sculpture(Clay::ball(4.0, {0.5, 0.1}).value());
+  for (int n = 0; n < 70; ++n) {
+    ASSERT_TRUE(sculpture.apply(CopyPiece{"Clay", sculpture.free_name("Clay")}));
+  }
+  ASSERT_TRUE(save_sculpture(file_, sculpture));
+  const auto loaded = load_sculpture(file_);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded.value().hash(), sculpture.hash());
+}
+
 /// Other programs see each piece where it stands.
 TEST_F(SculptureFile, GridsStandWhereTheirPiecesDo) {
   const Sculpture sculpture = ball_and_block();

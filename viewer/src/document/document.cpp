@@ -204,11 +204,8 @@ void Document::recall_steps() {
   const auto read = io::read_stroke_script(journal_of(file_));
   if (!read) return;
   for (const io::ScriptStep& step : read.value().steps) history_.record(step);
-  // The clay does not say how many steps it can redo: it is tried, and taken back.
-  std::size_t redone = 0;
-  while (sculpture().redo()) ++redone;
-  for (std::size_t n = 0; n < redone; ++n) sculpture().undo();
-  history_.keep(static_cast<std::size_t>(sculpture().undo_depth()), redone);
+  history_.keep(static_cast<std::size_t>(sculpture().undo_depth()),
+                static_cast<std::size_t>(sculpture().redo_depth()));
 }
 
 Result<std::vector<std::string>> Document::import(const fs::path& mesh, bool saves_former,

@@ -224,6 +224,7 @@ void DocumentWorker::take_hand() {
   // While the mouse draws a stroke the hand waits: it would end that one as its own.
   if (!document_.has_project() || document_.clay().is_stroke_open()) return;
   ClayWorkerOptions options;
+  options.may_begin = [this] { return document_.sculpture().check_unlocked().ok(); };
   options.tool = link_->tool;
   options.style = link_->style;
   options.on_stroke = [this](const Stroke& stroke) {
@@ -264,6 +265,7 @@ bool DocumentWorker::has_clay(const char* what) {
 
 void DocumentWorker::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
+  if (auto free = document_.sculpture().check_unlocked(); !free) return complain(free.error());
   // One whose dabs the clay still works off, or a clay of which only coarse levels are shown: a
   // preview begins with what is drawn of the clay.
   const bool is_behind = has_backlog();
@@ -507,7 +509,18 @@ void DocumentWorker::on(const OpenFile& open) {
   if (!opened) return complain(opened.error());
   clay_changed_hands();
   post_all(opened.value());
+  post_pieces();
   post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + file_in_quotes(open.file));
+}
+
+/// The window shows one of them.
+void DocumentWorker::post_pieces() {
+  const Sculpture& sculpture = document_.sculpture();
+  const std::size_t others = sculpture.piece_count() - 1;
+  if (others == 0) return;
+  post(Notice::Kind::warning,
+       "the project has several pieces: " + in_quotes(sculpture.look(sculpture.active()).name) +
+           " is shown and sculpted, the other " + std::to_string(others) + " stay as they are");
 }
 
 void DocumentWorker::on(const DropProject& drop) {

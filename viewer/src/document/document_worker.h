@@ -85,6 +85,7 @@ class DocumentWorker {
   void post(Notice::Kind kind, std::string text);
   void complain(const Error& error);
   void post_all(const std::vector<std::string>& notes);
+  void post_pieces();
   void post_state();
   std::shared_ptr<const StepNames> step_names();
   void post_slice();

@@ -69,7 +69,7 @@ void draw_verdict(UiState& ui) {
   ImGui::Text("Volume: %.4g cm3, parts: %d", verdict.volume_mm3 / 1000.0,
               static_cast<int>(verdict.components));
   if (ui.report->exported) {
-    ImGui::Text("%s triangles, error at most %.3g mm",
+    ImGui::Text("%s triangles, error %.3g mm at samples",
                 grouped(ui.report->exported->triangles).c_str(), ui.report->exported->max_error_mm);
   }
   if (verdict.problems.empty()) ImGui::TextUnformatted("No problems");

@@ -48,7 +48,8 @@ struct AddPiece {
   PieceLook look = {};
   std::shared_ptr<const Clay> clay = nullptr;          ///< copied
   std::shared_ptr<const TriangleMesh> mesh = nullptr;  ///< as import_mesh takes it
-  double voxel_mm = 0.0;                               ///< of a mesh; 0: that of the active piece
+  /// Of a mesh; 0: that of the active piece, whose tolerance and radius of edges it gets.
+  double voxel_mm = 0.0;
 };
 
 /// The same clay once more, at the same place: then the active piece.
@@ -136,17 +137,21 @@ class Sculpture {
   std::string free_name(std::string_view base) const;
 
   /// Errors  bad_input: no such piece, a name that is taken, a look out of its range, the last
-  ///         piece, a locked piece to be changed or removed, or an open stroke; as Clay::apply
+  ///         piece, a locked piece to be moved, removed or merged, or an open stroke; memory: all
+  ///         pieces together would take more than ClayLimits::memory_bytes of one; as Clay::apply
   ///         (MergePiece) and import_mesh (AddPiece).
   /// Cost    AddPiece of a clay and CopyPiece: a copy of its leaves. RemovePiece keeps the clay for
   ///         undo; ClayLimits::undo_bytes bounds what is kept of removed pieces, too.
   Result<void> apply(const PieceEdit& edit, const Progress& progress = {});
 
   /// Takes back, or repeats, what was done last to any piece, or to their list. False where there
-  /// is nothing, or while a stroke is open. The active piece changes only where it comes or goes.
+  /// is nothing, or while a stroke is open. Where a piece comes or goes, the one is active that was
+  /// before, or after. Throw bad_alloc as those of Clay.
   bool undo();
   bool redo();
   int undo_depth();
+  /// At most: a clay may have forgotten what lies farthest.
+  int redo_depth();
 
   /// Of each piece. Errors  as Clay::set_limits.
   Result<void> set_limits(const ClayLimits& limits);
@@ -166,6 +171,13 @@ class Sculpture {
   explicit Sculpture(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// A mesh of the piece's frame in the sculpture, in place.
+void place(const Placement& placement, TriangleMesh& mesh);
+
+/// The surfaces of all visible pieces where they stand, one behind the other; pieces that overlap
+/// stay as they are. Errors  interrupted.
+Result<TriangleMesh> extract_surface(const Sculpture& sculpture, const Progress& progress = {});
 
 /// A copy of a sculpture made in pieces between strokes, as ClayCopy is of a clay. The copy has no
 /// history.

@@ -23,7 +23,7 @@ struct ExportOptions {
 
 struct ExportReport {
   std::int64_t triangles = 0;
-  double max_error_mm = 0.0;  ///< the greater of both ways (certificate.h)
+  double max_error_mm = 0.0;  ///< the greater of both ways, of samples (certificate.h)
   double rms_error_mm = 0.0;  ///< the same
   mesh::Certificate certificate;
   double volume_change =

@@ -9,11 +9,13 @@
 namespace argil::mesh {
 
 /// Distances of the points of one surface from another, in mm. Mean and rms are over its area, the
-/// greatest is over all points that were looked at (io::measure_error says how many).
+/// greatest is over all points that were looked at.
 struct DistanceSummary {
   double max_mm = 0.0;
   double mean_mm = 0.0;
   double rms_mm = 0.0;
+  /// Spread over the surface; where the error may be greatest more points were looked at.
+  std::int64_t samples = 0;
 };
 
 /// How far a mesh and the clay it was made of lie apart.
@@ -52,6 +54,9 @@ struct Certificate {
   /// What the clay itself may miss where it stores less detail, in finest voxels
   /// (ClayOptions::tolerance_voxels). Not part of `error`, which is against the clay as stored.
   double tolerance_voxels = 0.0;
+  /// No point of the mesh or of the clay is farther from the other, which is proven and not
+  /// measured; components that were left out do not count. 0: nothing is, `error` is of samples.
+  double proven_max_mm = 0.0;
   /// What was asked for; 0: not asked.
   double asked_max_error_mm = 0.0;
   std::int64_t asked_triangles = 0;
