@@ -18,7 +18,8 @@ struct MeshBodies {
 
 /// Which body each triangle belongs to.
 ///
-/// Shapes       closed, finite; no triangle names a vertex twice. A component that is inside out and
+/// Shapes       closed, finite; no triangle names a vertex twice. A component that is inside out
+/// and
 ///              in no shell is a body of its own. No triangles: no bodies.
 /// Determinism  same numbers every time.
 /// Threads      any thread.
