@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil export: clay becomes a printable mesh file, or a grid for other programs.
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <utility>
+#include <vector>
 
+#include "argil/io/assembly.h"
 #include "argil/io/export.h"
+#include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
 #include "argil/io/volume_file.h"
 
+#include "assembly_input.h"
 #include "commands.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -18,7 +25,7 @@ namespace argil::cli {
 namespace {
 
 struct ExportArguments {
-  std::string project;
+  std::vector<std::string> projects;
   std::filesystem::path mesh;
   std::filesystem::path report;  // "": none
   int triangles = 0;
@@ -66,16 +73,18 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
   return io::replace_text(file, json.dump(2) + "\n");
 }
 
-Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {
+/// One project as a mesh, measured, read back and judged.
+Result<Outcome> export_to(const std::filesystem::path& file, const std::string& project,
+                          const ExportArguments& options, const Progress& progress) {
   const Stopwatch watch;
-  const auto opened = open_project(options.project, progress);
+  const auto opened = open_project(project, progress);
   if (!opened) return opened.error();
   io::ExportOptions wanted;
   wanted.triangles = options.triangles;
   wanted.max_error_mm = options.max_error_mm;
   wanted.parts = options.parts;
-  const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
-  if (!report) return named(options.project, report.error());
+  const auto report = io::export_mesh(file, opened.value().clay, wanted, progress);
+  if (!report) return named(project, report.error());
   Outcome outcome;
   outcome.json = export_json(report.value(), watch.seconds());
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
@@ -83,9 +92,61 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
   outcome.status = report.value().verdict.printable ? 0 : 1;
   outcome.text = grouped(report.value().triangles) + " triangles, error at most " +
                  number(report.value().max_error_mm) + " mm (rms " +
-                 number(report.value().rms_error_mm) + ")\n" +
-                 verdict_text(report.value().verdict) + "saved '" + options.mesh.string() + "'\n";
+                 number(report.value().rms_error_mm) + ")\n" + verdict_text(report.value().verdict);
   return outcome;
+}
+
+void add_project(const std::string& project, const Outcome& one, Outcome& all) {
+  Json json = {{"name", std::filesystem::path(project).stem().string()}, {"file", project}};
+  json.update(one.json);
+  all.json["triangles"] =
+      all.json["triangles"].get<std::int64_t>() + one.json["triangles"].get<std::int64_t>();
+  all.json["projects"].push_back(std::move(json));
+  all.text += "'" + project + "': " + one.text;
+  all.status = std::max(all.status, one.status);
+  all.json["printable"] = all.status == 0;
+}
+
+Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {
+  auto outcome = export_to(options.mesh, options.projects[0], options, progress);
+  if (outcome) outcome.value().text += "saved '" + options.mesh.string() + "'\n";
+  return outcome;
+}
+
+/// Several projects as named objects of one 3MF: each is written, measured and judged as if it were
+/// alone, and what was read back of it becomes an object of the whole.
+Result<Outcome> export_together(const ExportArguments& options, const Progress& progress) {
+  constexpr double kTouchMm = 1e-3;
+  const Stopwatch watch;
+  Outcome all;
+  all.json["printable"] = true;
+  all.json["triangles"] = 0;
+  all.json["projects"] = Json::array();
+  io::Assembly assembly;
+  const auto write_all = [&](const std::filesystem::path& temporary) -> Result<void> {
+    for (const std::string& project : options.projects) {
+      const auto one = export_to(temporary, project, options, progress);
+      if (!one) return one.error();
+      auto mesh = io::read_mesh(temporary);
+      if (!mesh) return mesh.error();
+      add_project(project, one.value(), all);
+      assembly.items.push_back({"", {{assembly.objects.size(), {}}}});
+      assembly.objects.push_back(
+          {std::filesystem::path(project).stem().string(), {}, std::move(mesh).value()});
+    }
+    return io::write_assembly(temporary, assembly, progress);
+  };
+  if (auto written = io::replace_file(options.mesh, write_all); !written) return written.error();
+  const StandingParts standing = standing_parts(assembly);
+  const auto gaps = gaps_between(standing, kTouchMm, progress);
+  if (!gaps) return gaps.error();
+  all.json["part_gaps"] = gaps_json(gaps.value(), standing.names);
+  for (std::size_t n = 0; n < std::min(gaps.value().size(), kMostPairsSaid); ++n) {
+    all.text += gap_text(gaps.value()[n], standing.names) + ": they print as one\n";
+  }
+  all.json["seconds"] = watch.seconds();
+  all.text += "saved '" + options.mesh.string() + "'\n";
+  return all;
 }
 
 /// The field of a project as one grid for other programs (volume_file.h).
@@ -125,13 +186,16 @@ Result<Outcome> export_volume(const std::string& project, const std::filesystem:
 }
 
 Result<Outcome> run_export(const ExportArguments& options, const Progress& progress) {
-  if (auto input = check_input(options.project); !input) return input.error();
+  for (const std::string& project : options.projects) {
+    if (auto input = check_input(project); !input) return input.error();
+  }
   if (auto output = check_output(options.mesh); !output) return output.error();
   if (!options.report.empty()) {
     if (auto output = check_output(options.report); !output) return output.error();
   }
-  auto outcome = has_ending(options.mesh, ".vdb")
-                     ? export_volume(options.project, options.mesh, progress)
+  auto outcome = options.projects.size() > 1 ? export_together(options, progress)
+                 : has_ending(options.mesh, ".vdb")
+                     ? export_volume(options.projects[0], options.mesh, progress)
                      : export_as_mesh(options, progress);
   if (!outcome || options.report.empty()) return outcome;
   if (auto written = write_report(options.report, outcome.value().json); !written) {
@@ -155,7 +219,10 @@ void add_export(CLI::App& app, Selected& selected) {
       app, selected, "export",
       "write the surface as a mesh file and check it; status 1 when it is not printable",
       [options](const Progress& progress) { return run_export(*options, progress); });
-  command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
+  command
+      ->add_option("PROJECT", options->projects,
+                   "a project (NAME.vdb); several become named parts of one .3mf")
+      ->required();
   add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb", ".vdb"},
            "the mesh to write, in mm; its ending chooses the format; .vdb: the field instead")
       ->required();
@@ -173,6 +240,15 @@ void add_export(CLI::App& app, Selected& selected) {
       refuse_for(has_ending(options->mesh, ".vdb"), *option, "meshes");
     }
     refuse_for(!has_ending(options->mesh, ".3mf"), *parts, ".3mf files");
+    if (options->projects.size() < 2) return;
+    if (options->parts) {
+      throw CLI::ValidationError(
+          "--parts is for one project; each of several is a part already: leave it out");
+    }
+    if (has_ending(options->mesh, ".3mf")) return;
+    throw CLI::ValidationError(
+        "several projects become parts of one .3mf, and -o names another file; name a .3mf, or "
+        "export each by itself");
   });
 }
 

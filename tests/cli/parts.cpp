@@ -186,6 +186,39 @@ TEST_F(CliParts, ImportKeepsEachInAClayOfItsOwn) {
   EXPECT_THAT(again.err, HasSubstr("Body.vdb' is there already; remove it, or name another"));
 }
 
+TEST_F(CliParts, ExportMakesOneFileOfSeveralClays) {
+  ASSERT_EQ(run_argil({"import", write_pot(pot(0.5)), "-o", path("clays"), "--keep-parts",
+                       "--voxel-mm", "0.25"})
+                .status,
+            0);
+  const std::vector<std::string> clays{path("clays/Body.vdb"), path("clays/Lid.vdb"),
+                                       path("clays/Pin_1.vdb")};
+  std::vector<std::string> command{"export"};
+  command.insert(command.end(), clays.begin(), clays.end());
+  command.insert(command.end(), {"--triangles", "500", "-o"});
+  std::vector<std::string> to_3mf = command;
+  to_3mf.push_back(path("set.3mf"));
+  const Ended exported = run(to_3mf);
+  ASSERT_EQ(exported.status, 0) << exported.err;
+  const json report = exported.json();
+  EXPECT_THAT(names_in(report["projects"]), ElementsAre("Body", "Lid", "Pin_1"));
+  EXPECT_LE(report["projects"][1]["triangles"].get<int>(), 500);
+  EXPECT_EQ(report["part_gaps"], json::array());
+  const io::Assembly set = io::read_assembly(folder_ / "set.3mf").value().assembly;
+  ASSERT_EQ(set.objects.size(), 3U);
+  EXPECT_EQ(set.objects[1].name, "Lid");
+  EXPECT_EQ(set.objects[1].mesh.triangles.size(), report["projects"][1]["triangles"]);
+  EXPECT_NEAR(bounds(set.objects[1].mesh).min.z, 2.5, 0.05);
+  EXPECT_EQ(run({"check", path("set.3mf")}).json()["parts"].size(), 3U);
+  // What only one can be, or holds no parts.
+  std::vector<std::string> to_stl = command;
+  to_stl.push_back(path("set.stl"));
+  EXPECT_EQ(run_argil(to_stl).status, 2);
+  EXPECT_THAT(run_argil(to_stl).err, HasSubstr("parts of one .3mf"));
+  to_3mf.push_back("--parts");
+  EXPECT_THAT(run_argil(to_3mf).err, HasSubstr("--parts is for one project"));
+}
+
 TEST_F(CliParts, ImportKeepsAllOrNone) {
   io::Assembly sheet = pot(1.0);
   sheet.objects[2].mesh.triangles.resize(2);

@@ -36,6 +36,15 @@ bool holds(const Box3& outer, const Box3& inner) noexcept {
   return true;
 }
 
+Box3 box_of(const Corners& c) noexcept {
+  Box3 box{c[0], c[0]};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.min[k] = std::min({c[0][k], c[1][k], c[2][k]});
+    box.max[k] = std::max({c[0][k], c[1][k], c[2][k]});
+  }
+  return box;
+}
+
 /// Boxes around halves of the triangles, down to a few.
 class BoxTree {
  public:
@@ -130,8 +139,12 @@ void NearestPair::measure(const BoxTree::Node& a, const BoxTree::Node& b) {
   if (++measured_ % kAskEvery == 0) pace_.at(0.0);
   for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
     const Corners corners = a_.corners(i);
+    const Box3 box = box_of(corners);
+    if (!may_hold(distance2_of(box, b.box))) continue;
     for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
-      const ClosestPoints points = closest_points(corners, b_.corners(j));
+      const Corners other = b_.corners(j);
+      if (!may_hold(distance2_of(box, box_of(other)))) continue;
+      const ClosestPoints points = closest_points(corners, other);
       if (!(points.distance2 < nearest_.distance2)) continue;
       nearest_ = points;
       found_ = true;
