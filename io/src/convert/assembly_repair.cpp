@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "argil/core/no_throw.h"
+
 namespace argil::io {
 namespace {
 
@@ -26,22 +28,23 @@ Error in_part(const std::string& name, Error error) {
 
 Result<RepairedAssembly> repair_assembly(Assembly assembly, const RepairOptions& options,
                                          const Progress& progress) {
-  RepairedAssembly made;
-  double all = 0.0;
-  for (const AssemblyObject& object : assembly.objects) {
-    all += static_cast<double>(object.mesh.triangles.size());
-  }
-  double first = 0.0;
-  for (AssemblyObject& object : assembly.objects) {
-    const auto count = static_cast<double>(object.mesh.triangles.size());
-    auto repaired = repair_mesh(object.mesh, options, share_of(progress, first, count, all));
-    if (!repaired) return in_part(object.name, repaired.error());
-    object.mesh = std::move(repaired.value().mesh);
-    made.reports.push_back(std::move(repaired.value().report));
-    first += count;
-  }
-  made.assembly = std::move(assembly);
-  return made;
+  return no_throw("repairing parts", [&]() -> Result<RepairedAssembly> {
+    RepairedAssembly made{with_true_sizes(std::move(assembly)), {}};
+    double all = 0.0;
+    for (const AssemblyObject& object : made.assembly.objects) {
+      all += static_cast<double>(object.mesh.triangles.size());
+    }
+    double first = 0.0;
+    for (AssemblyObject& object : made.assembly.objects) {
+      const auto count = static_cast<double>(object.mesh.triangles.size());
+      auto repaired = repair_mesh(object.mesh, options, share_of(progress, first, count, all));
+      if (!repaired) return in_part(object.name, repaired.error());
+      object.mesh = std::move(repaired.value().mesh);
+      made.reports.push_back(std::move(repaired.value().report));
+      first += count;
+    }
+    return made;
+  });
 }
 
 }  // namespace argil::io

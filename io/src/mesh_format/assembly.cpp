@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -43,6 +45,16 @@ class DistinctNames {
 
 }  // namespace
 
+bool Affine::keeps_lengths() const noexcept {
+  constexpr double kRounding = 1e-6;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      if (std::abs(dot(rows[i], rows[j]) - (i == j ? 1.0 : 0.0)) > kRounding) return false;
+    }
+  }
+  return true;
+}
+
 std::vector<PlacedPart> placed_parts(const Assembly& assembly) {
   std::vector<PlacedPart> parts;
   DistinctNames names;
@@ -73,6 +85,35 @@ TriangleMesh placed_mesh(const TriangleMesh& mesh, const Affine& to_mm) {
   placed.triangles.reserve(mesh.triangles.size());
   append_placed(mesh, to_mm, placed);
   return placed;
+}
+
+Assembly with_true_sizes(Assembly assembly) {
+  Assembly sized;
+  sized.items = std::move(assembly.items);
+  std::vector<std::optional<std::size_t>> kept(assembly.objects.size());
+  for (AssemblyItem& item : sized.items) {
+    for (Placement& placed : item.placements) {
+      const std::size_t from = placed.object;
+      const AssemblyObject& object = assembly.objects[from];
+      const bool stays = placed.to_mm.keeps_lengths();
+      if (stays && kept[from]) {
+        placed.object = *kept[from];
+        continue;
+      }
+      placed.object = sized.objects.size();
+      sized.objects.push_back({object.name, object.color, {}});
+      if (stays) {
+        kept[from] = placed.object;
+        sized.objects.back().mesh = object.mesh;
+      } else {
+        Affine shape = placed.to_mm;
+        shape.rows[3] = {};
+        sized.objects.back().mesh = placed_mesh(object.mesh, shape);
+        placed.to_mm = {{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, placed.to_mm.rows[3]}};
+      }
+    }
+  }
+  return sized;
 }
 
 TriangleMesh joined(Assembly assembly) {

@@ -114,6 +114,23 @@ TEST(AssemblyRoundTrip, GoesThroughLib3mf) {
   expect_same(read.value().assembly, lamp());
 }
 
+TEST(WithTrueSizes, GivesWhatIsPlacedInAnotherSizeAMeshOfThatSize) {
+  Assembly bolts = lamp();
+  // Three times the foot: as it is, mirrored, and of half its size and mirrored.
+  const Affine mirrored{{Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{50, 0, 0}}};
+  const Affine half{{Vec3{-0.5, 0, 0}, Vec3{0, 0.5, 0}, Vec3{0, 0, 0.5}, Vec3{90, 1, 0}}};
+  bolts.items[0].placements.push_back({0, mirrored});
+  bolts.items[0].placements.push_back({0, half});
+  const Assembly sized = with_true_sizes(bolts);
+  ASSERT_EQ(sized.objects.size(), 4U);
+  EXPECT_EQ(sized.items[0].placements[1].object, sized.items[0].placements[0].object);
+  EXPECT_EQ(sized.objects[1].name, sized.objects[0].name);
+  EXPECT_EQ(sized.objects[1].color, sized.objects[0].color);
+  EXPECT_NEAR(signed_volume(sized.objects[1].mesh), 30 * 20 * 5 / 8.0, 1e-9);
+  EXPECT_EQ(sized.items[0].placements[2].to_mm.rows[3], (Vec3{90, 1, 0}));
+  EXPECT_EQ(corners_sorted(joined(sized)), corners_sorted(joined(bolts)));
+}
+
 TEST(ReadAssembly, NamesTheOnePartOfOtherFormatsByTheFile) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_mesh(folder / "a knob.stl", test::box_mesh({1, 2, 3})));

@@ -31,6 +31,8 @@ struct Affine {
              outer.applied(rows[3])}};
   }
   bool mirrors() const noexcept { return dot(rows[0], cross(rows[1], rows[2])) < 0.0; }
+  /// Whether lengths stay as they are: it turns, moves and mirrors, but for rounding.
+  bool keeps_lengths() const noexcept;
   bool is_identity() const noexcept { return rows == Affine{}.rows; }
 };
 
@@ -79,6 +81,10 @@ TriangleMesh placed_mesh(const TriangleMesh& mesh, const Affine& to_mm);
 
 /// The bounds of its triangles there.
 Box3 placed_bounds(const TriangleMesh& mesh, const Affine& to_mm);
+
+/// The same parts at the same places, by places that keep lengths: an object that was placed
+/// larger, smaller or askew becomes one that is so. For what measures objects in their own frames.
+Assembly with_true_sizes(Assembly assembly);
 
 /// All parts as one mesh, in the order of placed_parts.
 TriangleMesh joined(Assembly assembly);
