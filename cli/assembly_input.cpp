@@ -14,7 +14,7 @@
 namespace argil::cli {
 namespace {
 
-constexpr std::string_view kMindedInFiles = "/\\:*?\"<>|'`$&;!#%~";
+constexpr std::string_view kMindedInFiles = "/\\:*?\"<>|";
 
 bool is_inside_character(char c) noexcept {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;

@@ -45,7 +45,7 @@ std::string gap_text(const mesh::PartGap& gap, const std::vector<std::string>& n
 /// "3 parts: 'Foot', 'Head', 'Shade'"
 std::string parts_text(const std::vector<std::string>& names);
 
-/// A file name without an ending for each part: what file systems and shells mind becomes '_', and
+/// A file name without an ending for each part: what file systems mind becomes '_', and
 /// names that would be one, also without regard to upper and lower case, are numbered.
 std::vector<std::string> file_stems(const std::vector<std::string>& names);
 
