@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil check: would a printer, or a print service, take this mesh or clay?
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "argil/io/printer_file.h"
 #include "argil/mesh/check.h"
 
+#include "assembly_input.h"
 #include "commands.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -48,20 +50,68 @@ Result<mesh::Printer> printer_of(const CheckOptions& options) {
 struct Judged {
   TriangleMesh mesh;
   mesh::MeshVerdict verdict;
-  Json more;  ///< keys of one kind of input
+  Json more;               ///< keys of one kind of input
+  std::string parts_text;  ///< of several parts, each by itself
+  bool are_parts_printable = true;
 };
+
+/// A line for a part that may be printed, all of the verdict for one that may not.
+std::string part_text(const std::string& name, const mesh::MeshVerdict& verdict) {
+  if (!verdict.printable) return "'" + name + "': " + verdict_text(verdict);
+  return "'" + name + "': printable: yes, volume " + number(verdict.volume_mm3) + " mm3\n";
+}
+
+/// Each part of several by itself, and the pairs that would not come apart.
+Result<void> judge_parts(const io::Assembly& assembly, const mesh::Printer& printer,
+                         const Progress& progress, Judged& judged) {
+  constexpr double kTouchMm = 1e-3;
+  judged.more["parts"] = Json::array();
+  judged.more["part_gaps"] = Json::array();
+  const std::size_t count = io::placed_parts(assembly).size();
+  if (count < 2) return {};
+  if (count > mesh::kMostParts) {
+    print_notes({std::to_string(count) + " parts are judged as one mesh; up to " +
+                 std::to_string(mesh::kMostParts) + " are judged each by itself"});
+    return {};
+  }
+  const StandingParts parts = standing_parts(assembly);
+  judged.parts_text = parts_text(parts.names) + "\n";
+  for (std::size_t p = 0; p < parts.meshes.size(); ++p) {
+    const auto verdict = mesh::check_print(parts.meshes[p], printer, 0, progress);
+    if (!verdict) return verdict.error();
+    judged.are_parts_printable = judged.are_parts_printable && verdict.value().printable;
+    Json part = {{"name", parts.names[p]}};
+    part.update(to_json(verdict.value()));
+    part["triangles"] = parts.meshes[p].triangles.size();
+    judged.more["parts"].push_back(std::move(part));
+    if (p < kMostPartsSaid) judged.parts_text += part_text(parts.names[p], verdict.value());
+  }
+  const auto gaps = gaps_between(parts, std::max(printer.min_gap_mm, kTouchMm), progress);
+  if (!gaps) return gaps.error();
+  judged.more["part_gaps"] = gaps_json(gaps.value(), parts.names);
+  for (std::size_t n = 0; n < std::min(gaps.value().size(), kMostPairsSaid); ++n) {
+    judged.parts_text += gap_text(gaps.value()[n], parts.names) + ": they print as one\n";
+  }
+  return {};
+}
 
 Result<Judged> judge_file(const std::string& file, const MeshFrameOptions& frame,
                           const mesh::Printer& printer, const Progress& progress) {
-  auto read = open_mesh(file, frame);
+  auto read = open_assembly(file, frame);
   if (!read) return read.error();
-  TriangleMesh& mesh = read.value().mesh;
+  io::Assembly& assembly = read.value().assembly;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file));
-  auto verdict = mesh::check_print(mesh, printer, bytes, progress);
+  Judged judged;
+  judged.more = {{"file_bytes", bytes}};
+  add_frame_keys(judged.more, read.value().frame);
+  if (auto parts = judge_parts(assembly, printer, progress, judged); !parts) {
+    return parts.error();
+  }
+  judged.mesh = io::joined(std::move(assembly));
+  auto verdict = mesh::check_print(judged.mesh, printer, bytes, progress);
   if (!verdict) return verdict.error();
-  Json more = {{"file_bytes", bytes}};
-  add_frame_keys(more, read.value().frame);
-  return Judged{std::move(mesh), std::move(verdict).value(), std::move(more)};
+  judged.verdict = std::move(verdict).value();
+  return judged;
 }
 
 Result<Judged> judge_project(const std::string& file, const std::string& piece,
@@ -76,7 +126,8 @@ Result<Judged> judge_project(const std::string& file, const std::string& piece,
                 // A clay has no mesh file that could be too large.
                 {{"file_bytes", nullptr},
                  {"removed_crumbs", judged.removed_components},
-                 {"recovered_strokes", opened.value().recovered_steps}}};
+                 {"recovered_strokes", opened.value().recovered_steps}},
+                {}};
 }
 
 Result<Outcome> run_check(const CheckOptions& options, const Progress& progress) {
@@ -97,16 +148,16 @@ Result<Outcome> run_check(const CheckOptions& options, const Progress& progress)
                           ? judge_project(options.mesh, options.piece, printer.value(), progress)
                           : judge_file(options.mesh, options.frame, printer.value(), progress);
   if (!judged) return named(options.mesh, judged.error());
-  const auto& [mesh, verdict, more] = judged.value();
+  const auto& [mesh, verdict, more, parts_text, are_parts_printable] = judged.value();
   Outcome outcome;
   outcome.json = to_json(verdict);
   outcome.json["triangles"] = mesh.triangles.size();
   outcome.json.update(more);
   outcome.json["printer"] = options.printer.empty() ? Json() : Json(printer.value().name);
   outcome.text = grouped(static_cast<std::int64_t>(mesh.triangles.size())) + " triangles\n" +
-                 verdict_text(verdict);
+                 verdict_text(verdict) + parts_text;
   // 1 as grep has it: the command worked, and the answer is no.
-  outcome.status = verdict.printable ? 0 : 1;
+  outcome.status = verdict.printable && are_parts_printable ? 0 : 1;
   if (!options.picture.empty()) {
     auto saved = write_marked_picture(options.picture, mesh, verdict, progress);
     if (!saved) return saved.error();

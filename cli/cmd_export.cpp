@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil export: clay becomes a printable mesh file, or a grid for other programs.
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <utility>
+#include <vector>
 
+#include "argil/io/assembly.h"
 #include "argil/io/export.h"
+#include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
 #include "argil/io/volume_file.h"
 
+#include "assembly_input.h"
 #include "commands.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -18,7 +25,7 @@ namespace argil::cli {
 namespace {
 
 struct ExportArguments {
-  std::string project;
+  std::vector<std::string> projects;
   std::string piece;
   std::filesystem::path mesh;
   std::filesystem::path report;  // "": none
@@ -84,24 +91,142 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
   return io::replace_text(file, json.dump(2) + "\n");
 }
 
-Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {
+/// One clay as a mesh, measured, read back and judged.
+Result<Outcome> export_to(const std::filesystem::path& file, const std::string& project,
+                          const Clay& clay, const ExportArguments& options,
+                          const Progress& progress) {
   const Stopwatch watch;
-  const auto opened = open_clay(options.project, options.piece, progress);
-  if (!opened) return opened.error();
   io::ExportOptions wanted;
   wanted.triangles = options.triangles;
   wanted.max_error_mm = options.max_error_mm;
   wanted.parts = options.parts;
-  const auto report = io::export_mesh(options.mesh, opened.value().clay, wanted, progress);
-  if (!report) return named(options.project, report.error());
+  const auto report = io::export_mesh(file, clay, wanted, progress);
+  if (!report) return named(project, report.error());
   Outcome outcome;
   outcome.json = export_json(report.value(), watch.seconds());
-  outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   // The file is written in any case; 1 says that it is not printable.
   outcome.status = report.value().verdict.printable ? 0 : 1;
   outcome.text = grouped(report.value().triangles) + " triangles" + error_text(report.value()) +
-                 verdict_text(report.value().verdict) + "saved '" + options.mesh.string() + "'\n";
+                 verdict_text(report.value().verdict);
   return outcome;
+}
+
+Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& progress) {
+  const std::string& project = options.projects[0];
+  const auto opened = open_clay(project, options.piece, progress);
+  if (!opened) return opened.error();
+  auto outcome = export_to(options.mesh, project, opened.value().clay, options, progress);
+  if (!outcome) return outcome;
+  outcome.value().json["recovered_strokes"] = opened.value().recovered_steps;
+  outcome.value().text += "saved '" + options.mesh.string() + "'\n";
+  return outcome;
+}
+
+/// The pieces of projects that become objects of one 3MF: each is written, measured and judged as
+/// if it were alone, and what was read back of it becomes an object of the whole.
+class TogetherExport {
+ public:
+  TogetherExport(const ExportArguments& options, const Progress& progress)
+      : options_(options), progress_(progress) {}
+
+  Result<Outcome> run();
+
+ private:
+  Result<void> add_project(const std::string& project, const std::filesystem::path& temporary);
+  Result<void> add_piece(const std::string& project, const std::string& name, const PieceLook& look,
+                         const Clay& clay, std::int64_t recovered,
+                         const std::filesystem::path& temporary);
+  Result<void> say_what_meets();
+
+  const ExportArguments& options_;
+  const Progress& progress_;
+  io::Assembly assembly_;
+  Outcome all_;
+};
+
+io::Affine affine_of(const Placement& placement) {
+  const Quat& q = placement.orientation;
+  return {{rotate(q, {1.0, 0.0, 0.0}), rotate(q, {0.0, 1.0, 0.0}), rotate(q, {0.0, 0.0, 1.0}),
+           placement.position_mm}};
+}
+
+Result<void> TogetherExport::add_piece(const std::string& project, const std::string& name,
+                                       const PieceLook& look, const Clay& clay,
+                                       std::int64_t recovered,
+                                       const std::filesystem::path& temporary) {
+  const auto one = export_to(temporary, project, clay, options_, progress_);
+  if (!one) return one.error();
+  auto mesh = io::read_mesh(temporary);
+  if (!mesh) return mesh.error();
+  Json json = {{"name", name}, {"file", project}, {"recovered_strokes", recovered}};
+  json.update(one.value().json);
+  all_.json["triangles"] = all_.json["triangles"].get<std::int64_t>() +
+                           one.value().json["triangles"].get<std::int64_t>();
+  all_.json["projects"].push_back(std::move(json));
+  all_.text += "'" + (name == look.name ? name : project) + "': " + one.value().text;
+  all_.status = std::max(all_.status, one.value().status);
+  assembly_.items.push_back({"", {{assembly_.objects.size(), affine_of(look.placement)}}});
+  assembly_.objects.push_back({name, look.color, std::move(mesh).value()});
+  return {};
+}
+
+/// A clay that has no name of its own is called by its file.
+Result<void> TogetherExport::add_project(const std::string& project,
+                                         const std::filesystem::path& temporary) {
+  const auto opened = open_project(project, progress_);
+  if (!opened) return opened.error();
+  const Sculpture& sculpture = opened.value().sculpture;
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
+    const PieceLook& look = sculpture.look(n);
+    if (!look.is_visible) continue;
+    const bool has_name = sculpture.piece_count() > 1 || look.name != PieceLook().name;
+    const std::string name = has_name ? look.name : std::filesystem::path(project).stem().string();
+    auto added = add_piece(project, name, look, sculpture.clay(n), opened.value().recovered_steps,
+                           temporary);
+    if (!added) return added;
+  }
+  return {};
+}
+
+Result<void> TogetherExport::say_what_meets() {
+  constexpr double kTouchMm = 1e-3;
+  const StandingParts standing = standing_parts(assembly_);
+  const auto gaps = gaps_between(standing, kTouchMm, progress_);
+  if (!gaps) return gaps.error();
+  all_.json["part_gaps"] = gaps_json(gaps.value(), standing.names);
+  for (std::size_t n = 0; n < std::min(gaps.value().size(), kMostPairsSaid); ++n) {
+    all_.text += gap_text(gaps.value()[n], standing.names) + ": they print as one\n";
+  }
+  return {};
+}
+
+Result<Outcome> TogetherExport::run() {
+  const Stopwatch watch;
+  all_.json["triangles"] = 0;
+  all_.json["projects"] = Json::array();
+  const auto write_all = [&](const std::filesystem::path& temporary) -> Result<void> {
+    for (const std::string& project : options_.projects) {
+      if (auto added = add_project(project, temporary); !added) return added;
+    }
+    if (!assembly_.objects.empty()) return io::write_assembly(temporary, assembly_, progress_);
+    return Error{ErrorKind::bad_input,
+                 "'" + options_.projects[0] + "' has no visible piece; show one first"};
+  };
+  if (auto written = io::replace_file(options_.mesh, write_all); !written) return written.error();
+  if (auto said = say_what_meets(); !said) return said.error();
+  all_.json["printable"] = all_.status == 0;
+  all_.json["seconds"] = watch.seconds();
+  all_.text += "saved '" + options_.mesh.string() + "'\n";
+  return std::move(all_);
+}
+
+/// A project of several pieces goes into a 3MF as they are, unless one is named.
+Result<bool> has_pieces_together(const ExportArguments& options, const Progress& progress) {
+  if (options.projects.size() > 1) return true;
+  if (!options.piece.empty() || !has_ending(options.mesh, ".3mf") || options.parts) return false;
+  const auto opened = io::open_project(options.projects[0], progress);
+  if (!opened) return opened.error();
+  return opened.value().sculpture.piece_count() > 1;
 }
 
 /// The field of a project as one grid for other programs (volume_file.h).
@@ -141,13 +266,18 @@ Result<Outcome> export_volume(const std::string& project, const std::string& pie
 }
 
 Result<Outcome> run_export(const ExportArguments& options, const Progress& progress) {
-  if (auto input = check_input(options.project); !input) return input.error();
+  for (const std::string& project : options.projects) {
+    if (auto input = check_input(project); !input) return input.error();
+  }
   if (auto output = check_output(options.mesh); !output) return output.error();
   if (!options.report.empty()) {
     if (auto output = check_output(options.report); !output) return output.error();
   }
-  auto outcome = has_ending(options.mesh, ".vdb")
-                     ? export_volume(options.project, options.piece, options.mesh, progress)
+  const auto together = has_pieces_together(options, progress);
+  if (!together) return together.error();
+  auto outcome = together.value() ? TogetherExport(options, progress).run()
+                 : has_ending(options.mesh, ".vdb")
+                     ? export_volume(options.projects[0], options.piece, options.mesh, progress)
                      : export_as_mesh(options, progress);
   if (!outcome || options.report.empty()) return outcome;
   if (auto written = write_report(options.report, outcome.value().json); !written) {
@@ -171,7 +301,11 @@ void add_export(CLI::App& app, Selected& selected) {
       app, selected, "export",
       "write the surface as a mesh file and check it; status 1 when it is not printable",
       [options](const Progress& progress) { return run_export(*options, progress); });
-  command->add_option("PROJECT", options->project, "a project (NAME.vdb)")->required();
+  command
+      ->add_option("PROJECT", options->projects,
+                   "a project (NAME.vdb); several, or several pieces, become named parts of one "
+                   ".3mf")
+      ->required();
   add_piece_option(*command, options->piece);
   add_file(*command, "-o,--output", options->mesh, {".3mf", ".stl", ".obj", ".ply", ".glb", ".vdb"},
            "the mesh to write, in mm; its ending chooses the format; .vdb: the field instead")
@@ -190,6 +324,18 @@ void add_export(CLI::App& app, Selected& selected) {
       refuse_for(has_ending(options->mesh, ".vdb"), *option, "meshes");
     }
     refuse_for(!has_ending(options->mesh, ".3mf"), *parts, ".3mf files");
+    if (options->projects.size() < 2) return;
+    if (!options->piece.empty()) {
+      throw CLI::ValidationError("--piece is for one project; leave it out, or name one project");
+    }
+    if (options->parts) {
+      throw CLI::ValidationError(
+          "--parts is for one project; each of several is a part already: leave it out");
+    }
+    if (has_ending(options->mesh, ".3mf")) return;
+    throw CLI::ValidationError(
+        "several projects become parts of one .3mf, and -o names another file; name a .3mf, or "
+        "export each by itself");
   });
 }
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // argil import: a mesh becomes clay.
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "argil/engine/import.h"
 #include "argil/engine/surface.h"
 #include "argil/io/import_comparison.h"
 #include "argil/io/prepared_mesh.h"
+#include "argil/io/project_file.h"
+#include "argil/io/safe_file.h"
 
+#include "assembly_input.h"
 #include "commands.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -21,7 +27,8 @@ namespace {
 
 struct ImportOptions {
   std::string mesh;
-  std::filesystem::path project;
+  std::filesystem::path project;  // with keep_parts: a folder of them
+  bool keep_parts = false;
   double size_mm = 0.0;   // 0: as the file says
   double voxel_mm = 0.0;  // 0: by resolution
   int resolution = io::kUsualResolution;
@@ -54,7 +61,11 @@ Json import_json(const io::PreparedMesh& prepared, const ImportReport& import, c
   json["added"] = point_json(found.added);
   json["bodies"] = found.bodies;
   json["mesh_bodies"] = or_null(found.given_bodies);
-  json["merged"] = found.merged ? point_json(*found.merged) : Json(nullptr);
+  const auto apart = std::find_if(found.fused.begin(), found.fused.end(),
+                                  [](const mesh::PartGap& gap) { return !gap.meet(); });
+  json["merged"] =
+      apart == found.fused.end() ? Json(nullptr) : point_json({apart->at_mm, apart->gap_mm});
+  json["fused"] = gaps_json(found.fused, found.part_names);
   json["seconds"] = seconds;
   json["hash"] = hex(clay.hash());
   json["triangles"] = prepared.mesh.triangles.size();
@@ -124,6 +135,23 @@ std::string distance_text(const io::MeasuredPoint& measured) {
   return number(measured.distance_mm) + " mm ";
 }
 
+/// Each pair of parts that became one, at most kMostPairsSaid.
+std::vector<std::string> fused_notes(const io::ImportComparison& found) {
+  std::vector<std::string> notes;
+  for (const mesh::PartGap& gap : found.fused) {
+    if (notes.size() == kMostPairsSaid) {
+      notes.push_back("and " +
+                      grouped(static_cast<std::int64_t>(found.fused.size() - notes.size())) +
+                      " more pairs are one body in the clay; --json names all");
+      break;
+    }
+    notes.push_back(gap_text(gap, found.part_names) + " and are one body in the clay; " +
+                    (gap.meet() ? "" : "choose a finer --voxel-mm, or ") +
+                    "keep each in a clay of its own with --keep-parts");
+  }
+  return notes;
+}
+
 /// What a person should look at; empty where the clay is what the mesh was.
 std::vector<std::string> doubts(const io::ImportComparison& found, double voxel_mm) {
   constexpr const char* kFiner = "choose a finer --voxel-mm";
@@ -152,13 +180,7 @@ std::vector<std::string> doubts(const io::ImportComparison& found, double voxel_
           point_text(found.added) + "the clay has a surface " + distance_text(found.added) +
               "from any of the mesh",
           "look at it with 'argil render', or mend the mesh with 'argil repair'");
-  if (found.merged) {
-    note_if(true,
-            grouped(*found.given_bodies) + " bodies of the mesh are " + grouped(found.bodies) +
-                " in the clay: " + point_text(*found.merged) + "two of them are only " +
-                distance_text(*found.merged) + "apart",
-            kFiner);
-  }
+  for (std::string& note : fused_notes(found)) notes.push_back(std::move(note));
   return notes;
 }
 
@@ -193,22 +215,31 @@ Compared compare(const io::PreparedMesh& prepared, const ImportResult& imported,
   return {unknown, {"the clay was not compared with the mesh: " + found.error().message}};
 }
 
-Result<Outcome> run_import(const ImportOptions& options, const Progress& progress) {
-  const Stopwatch watch;
-  if (auto input = check_input(options.mesh); !input) return input.error();
-  if (auto output = check_output(options.project); !output) return output.error();
-  const io::MeshFrame frame = options.frame.frame();
-  const auto prepared =
-      io::read_prepared_mesh(options.mesh, {options.size_mm, options.repair == 0, frame});
-  if (!prepared) return named(options.mesh, prepared.error());
+io::MeshPreparation preparation_of(const ImportOptions& options) {
+  return {options.size_mm, options.repair == 0, options.frame.frame()};
+}
+
+/// Says on stderr how the file was understood, and what of it was left out.
+void print_reading(const ImportOptions& options, io::FrameReport& frame,
+                   const std::vector<std::string>& notes) {
   // With a size it does not matter which unit the file has.
-  io::FrameReport read = prepared.value().frame;
-  if (options.size_mm > 0.0) read.unit_looks_like.reset();
-  print_notes(io::frame_doubts(options.mesh, read));
+  if (options.size_mm > 0.0) frame.unit_looks_like.reset();
+  print_notes(io::frame_doubts(options.mesh, frame));
+  for (const std::string& note : notes) print_notes({"'" + options.mesh + "': " + note});
+}
+
+double voxel_for(const ImportOptions& options, double largest_side_mm) {
+  return options.voxel_mm > 0.0 ? options.voxel_mm : largest_side_mm / options.resolution;
+}
+
+Result<Outcome> import_whole(const ImportOptions& options, const Progress& progress) {
+  const Stopwatch watch;
+  if (auto output = check_output(options.project); !output) return output.error();
+  auto prepared = io::read_prepared_mesh(options.mesh, preparation_of(options));
+  if (!prepared) return named(options.mesh, prepared.error());
+  print_reading(options, prepared.value().frame, prepared.value().notes);
   if (auto stop = check_interrupt(); !stop) return stop.error();
-  const double voxel = options.voxel_mm > 0.0
-                           ? options.voxel_mm
-                           : prepared.value().largest_side_mm / options.resolution;
+  const double voxel = voxel_for(options, prepared.value().largest_side_mm);
   const auto imported = import_at(voxel, options, prepared.value(), progress);
   if (!imported) return imported.error();
   const auto& [clay, report] = imported.value();
@@ -219,12 +250,189 @@ Result<Outcome> run_import(const ImportOptions& options, const Progress& progres
   Outcome outcome;
   print_notes(notes);
   outcome.json = import_json(prepared.value(), report, clay, found, watch.seconds());
-  add_frame_keys(outcome.json, read);
+  outcome.json["part_names"] = prepared.value().part_names;
+  add_frame_keys(outcome.json, prepared.value().frame);
   outcome.json["doubts"] = notes;
-  outcome.text = levels_text(clay.level_stats()) + "volume " + number(found.volume_mm3) + " mm3\n" +
-                 import_changes(prepared.value().closing, report, found) + "saved '" +
-                 options.project.string() + "' in " + number(watch.seconds()) + " s\n";
+  const std::vector<std::string>& parts = prepared.value().part_names;
+  if (!parts.empty()) outcome.text = parts_text(parts) + "\n";
+  outcome.text += levels_text(clay.level_stats()) + "volume " + number(found.volume_mm3) +
+                  " mm3\n" + import_changes(prepared.value().closing, report, found) + "saved '" +
+                  options.project.string() + "' in " + number(watch.seconds()) + " s\n";
   return outcome;
+}
+
+/// Imports parts into projects that are not there yet, so that all of them come to be or none: each
+/// is saved under its name only when the last is written.
+class PartsImport {
+ public:
+  PartsImport(const ImportOptions& options, io::PreparedParts prepared, const Progress& progress)
+      : options_(options),
+        prepared_(std::move(prepared)),
+        progress_(progress),
+        voxel_mm_(voxel_for(options, prepared_.largest_side_mm)) {}
+
+  Result<Outcome> run();
+
+ private:
+  Result<void> name_files();
+  Result<void> import_from(std::size_t part);
+  Result<void> save(std::size_t part, const std::filesystem::path& file);
+  void describe(std::size_t part, const ImportResult& imported, double seconds);
+
+  const ImportOptions& options_;
+  io::PreparedParts prepared_;
+  const Progress& progress_;
+  double voxel_mm_;
+  std::vector<std::filesystem::path> files_;
+  Outcome outcome_;
+};
+
+Result<void> PartsImport::name_files() {
+  for (const std::string& stem : file_stems(prepared_.names)) {
+    files_.push_back(options_.project / (stem + ".vdb"));
+    std::error_code unknown;
+    if (std::filesystem::exists(files_.back(), unknown)) {
+      return Error{ErrorKind::bad_input, "'" + files_.back().string() +
+                                             "' is there already; remove it, or name another "
+                                             "folder with -o"};
+    }
+  }
+  return {};
+}
+
+void PartsImport::describe(std::size_t part, const ImportResult& imported, double seconds) {
+  const io::PreparedMesh& prepared = prepared_.parts[part];
+  const std::string& name = prepared_.names[part];
+  auto [found, notes] = compare(prepared, imported, voxel_mm_);
+  Json json = {{"name", name}, {"file", files_[part].string()}};
+  json.update(import_json(prepared, imported.report, imported.clay, found, seconds));
+  json["doubts"] = notes;
+  outcome_.json["projects"].push_back(std::move(json));
+  for (const std::string& note : notes) print_notes({"'" + name + "': " + note});
+  outcome_.text += "'" + name + "': volume " + number(found.volume_mm3) + " mm3\n" +
+                   import_changes(prepared.closing, imported.report, found) + "  saved '" +
+                   files_[part].string() + "'\n";
+}
+
+Result<void> PartsImport::save(std::size_t part, const std::filesystem::path& file) {
+  const Stopwatch watch;
+  const auto imported = import_at(voxel_mm_, options_, prepared_.parts[part], progress_);
+  if (!imported) {
+    Error error = imported.error();
+    error.message += " (part '" + prepared_.names[part] + "')";
+    return error;
+  }
+  describe(part, imported.value(), watch.seconds());
+  prepared_.parts[part] = {};
+  return io::save_project(file, imported.value().clay);
+}
+
+Result<void> PartsImport::import_from(std::size_t part) {
+  if (part == files_.size()) return check_interrupt();
+  return io::replace_file(files_[part], [&](const std::filesystem::path& temporary) {
+    const Result<void> saved = save(part, temporary);
+    return saved ? import_from(part + 1) : saved;
+  });
+}
+
+Result<Outcome> PartsImport::run() {
+  namespace fs = std::filesystem;
+  if (auto named = name_files(); !named) return named.error();
+  outcome_.json["voxel_mm"] = voxel_mm_;
+  outcome_.json["projects"] = Json::array();
+  outcome_.text = parts_text(prepared_.names) + "\n";
+  std::error_code failed;
+  const bool is_new = fs::create_directory(options_.project, failed);
+  if (failed) {
+    return Error{ErrorKind::disk, "cannot make the folder '" + options_.project.string() +
+                                      "': " + failed.message() + "; name another with -o"};
+  }
+  const Result<void> imported = import_from(0);
+  if (imported) return std::move(outcome_);
+  std::error_code ignored;
+  for (const fs::path& file : files_) fs::remove(file, ignored);
+  if (is_new) fs::remove(options_.project, ignored);
+  return imported.error();
+}
+
+/// A name that a piece can have and no other has yet.
+std::string piece_name(std::string name, std::size_t number, const std::set<std::string>& taken) {
+  while (!name.empty() && !validate_look({.name = name})) name.pop_back();
+  if (name.empty()) name = "Part " + std::to_string(number);
+  std::string free = name;
+  for (int n = 2; taken.contains(free); ++n) {
+    const std::string end = " " + std::to_string(n);
+    free = name.substr(0, Sculpture::kMostBytesOfAName - end.size()) + end;
+  }
+  return free;
+}
+
+/// The parts as pieces of one project.
+Result<Outcome> import_pieces(const ImportOptions& options, const io::PreparedParts& prepared,
+                              const Progress& progress) {
+  const double voxel_mm = voxel_for(options, prepared.largest_side_mm);
+  std::vector<Sculpture::ReadyPiece> pieces;
+  std::set<std::string> taken;
+  Outcome outcome;
+  outcome.json["voxel_mm"] = voxel_mm;
+  outcome.json["pieces"] = Json::array();
+  outcome.text = parts_text(prepared.names) + "\n";
+  for (std::size_t n = 0; n < prepared.parts.size(); ++n) {
+    const Stopwatch watch;
+    const io::PreparedMesh& part = prepared.parts[n];
+    auto imported = import_at(voxel_mm, options, part, progress);
+    if (!imported) {
+      Error error = imported.error();
+      error.message += " (part '" + prepared.names[n] + "')";
+      return error;
+    }
+    const std::string name = piece_name(prepared.names[n], n + 1, taken);
+    taken.insert(name);
+    const auto [found, notes] = compare(part, imported.value(), voxel_mm);
+    Json json = {{"name", name}};
+    json.update(
+        import_json(part, imported.value().report, imported.value().clay, found, watch.seconds()));
+    json["doubts"] = notes;
+    outcome.json["pieces"].push_back(std::move(json));
+    for (const std::string& note : notes) print_notes({"'" + name + "': " + note});
+    outcome.text += "'" + name + "': volume " + number(found.volume_mm3) + " mm3\n" +
+                    import_changes(part.closing, imported.value().report, found);
+    pieces.push_back({{.name = name}, std::move(imported.value().clay)});
+  }
+  auto sculpture = Sculpture::of(std::move(pieces), 0);
+  if (!sculpture) return named(options.mesh, sculpture.error());
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  if (auto saved = replace_project(options.project, sculpture.value()); !saved) {
+    return saved.error();
+  }
+  outcome.json["hash"] = hex(sculpture.value().hash());
+  outcome.text += "saved '" + options.project.string() + "'\n";
+  return outcome;
+}
+
+Result<Outcome> import_parts(const ImportOptions& options, const Progress& progress) {
+  const Stopwatch watch;
+  // "parts/" is the folder "parts".
+  ImportOptions in_folder = options;
+  if (!options.project.has_filename()) in_folder.project = options.project.parent_path();
+  if (auto output = check_output(in_folder.project); !output) return output.error();
+  auto prepared = io::read_prepared_parts(options.mesh, preparation_of(options));
+  if (!prepared) return named(options.mesh, prepared.error());
+  io::FrameReport frame = prepared.value().frame;
+  print_reading(options, frame, prepared.value().notes);
+  if (auto stop = check_interrupt(); !stop) return stop.error();
+  auto outcome = has_ending(options.project, ".vdb")
+                     ? import_pieces(options, prepared.value(), progress)
+                     : PartsImport(in_folder, std::move(prepared).value(), progress).run();
+  if (!outcome) return outcome;
+  add_frame_keys(outcome.value().json, frame);
+  outcome.value().json["seconds"] = watch.seconds();
+  return outcome;
+}
+
+Result<Outcome> run_import(const ImportOptions& options, const Progress& progress) {
+  if (auto input = check_input(options.mesh); !input) return input.error();
+  return options.keep_parts ? import_parts(options, progress) : import_whole(options, progress);
 }
 
 }  // namespace
@@ -235,7 +443,15 @@ void add_import(CLI::App& app, Selected& selected) {
       add_command(app, selected, "import", "turn a mesh into clay",
                   [options](const Progress& progress) { return run_import(*options, progress); });
   command->add_option("MESH", options->mesh, "OBJ, STL, PLY, GLB, glTF or 3MF")->required();
-  add_file(*command, "-o,--output", options->project, {".vdb"}, "the project to write")->required();
+  command
+      ->add_option("-o,--output", options->project,
+                   "the project to write (NAME.vdb); with --keep-parts also a folder for several")
+      ->type_name("FILE")
+      ->required();
+  command->add_flag(
+      "--keep-parts", options->keep_parts,
+      "each part of a 3MF, or body of another file, a clay of its own: a piece of the project, or "
+      "a project in the folder");
   options->frame.add_to(*command);
   add_number(*command, "--size-mm", options->size_mm, kPositive,
              "scale so that the largest side has this length; default: as large as the file says")
@@ -257,6 +473,9 @@ void add_import(CLI::App& app, Selected& selected) {
       ->type_name("NUMBER");
   add_choice(*command, "--repair", options->repair, {"auto", "none"},
              "close openings, or refuse a mesh that has any; default auto");
+  command->parse_complete_callback([options] {
+    if (!options->keep_parts) check_ending("--output", options->project, {".vdb"});
+  });
 }
 
 }  // namespace argil::cli

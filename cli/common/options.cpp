@@ -130,15 +130,19 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::size_t& tar
   return app.add_option_function<std::string>(name, read, help)->type_name(type);
 }
 
+void check_ending(const std::string& option, const fs::path& file,
+                  const std::vector<std::string>& endings) {
+  const std::string ending = lower(file.extension().string());
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  refuse(option, file.string(), "a file name ending in " + listed(endings));
+}
+
 CLI::Option* add_file(CLI::App& app, const std::string& name, fs::path& target,
                       std::initializer_list<const char*> endings, const std::string& help) {
   const std::vector<std::string> known(endings.begin(), endings.end());
   assert(!known.empty() && known.front().starts_with('.'));
   const auto read = [name, &target, known](const std::string& text) {
-    const std::string ending = lower(fs::path(text).extension().string());
-    if (std::find(known.begin(), known.end(), ending) == known.end()) {
-      refuse(name, text, "a file name ending in " + listed(known));
-    }
+    check_ending(name, text, known);
     target = text;
   };
   return app.add_option_function<std::string>(name, read, help)->type_name("FILE");

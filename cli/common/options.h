@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -37,6 +38,10 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::size_t& tar
 /// A path whose ending must be one of `endings` (".vdb"), in any case.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& target,
                       std::initializer_list<const char*> endings, const std::string& help);
+
+/// Throws unless a path given for `option` ends in one of `endings`, in any case.
+void check_ending(const std::string& option, const std::filesystem::path& file,
+                  const std::vector<std::string>& endings);
 
 /// Whether a file name ends in ".vdb", in any case.
 bool has_ending(const std::filesystem::path& file, const std::string& ending);

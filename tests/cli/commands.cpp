@@ -101,7 +101,10 @@ TEST_F(CliCommands, ImportNamesTheGapThatItFilled) {
   EXPECT_NEAR(report["filled"]["at_mm"][0].get<double>(), 0.25, 0.051);
   EXPECT_NEAR(report["merged"]["distance_mm"].get<double>(), 0.1, 0.01);
   EXPECT_THAT(run.err, HasSubstr("inside the clay: a gap or a cavity narrower than two voxels"));
-  EXPECT_THAT(run.err, HasSubstr("2 bodies of the mesh are 1 in the clay: at 0."));
+  EXPECT_THAT(run.err, HasSubstr("'body 1' and 'body 2' are 0.1 mm apart at 0.25, "));
+  EXPECT_THAT(run.err, HasSubstr("mm and are one body in the clay; choose a finer --voxel-mm"));
+  ASSERT_EQ(report["fused"].size(), 1U);
+  EXPECT_EQ(report["fused"][0]["parts"], (json{"body 1", "body 2"}));
   EXPECT_THAT(run_argil(coarse).out, HasSubstr("2 bodies of the mesh are 1 in clay"));
 }
 

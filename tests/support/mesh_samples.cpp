@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <ostream>
+#include <utility>
 
 #include "argil/io/mesh_file.h"
 
@@ -13,6 +14,7 @@
 #include "support/mesh_bytes.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
+#include "support/zip_maker.h"
 
 namespace argil::test {
 namespace {
@@ -155,6 +157,48 @@ MeshSample gltf_sample() {
   return {"gltf", "cut.gltf", text, parse, never};
 }
 
+Result<TriangleMesh> joined_3mf(std::span<const std::byte> bytes, const std::string& name) {
+  io::StatedUnit unit;
+  auto parsed = io::parse_3mf(bytes, name, unit);
+  if (!parsed) return parsed.error();
+  return io::joined(std::move(parsed.value().assembly));
+}
+
+/// A part and a modifier that a slicer merged into one mesh and names beside it, in a color, and
+/// put in place by a component. Nothing is packed, so that every byte of the text is cut and
+/// flipped.
+MeshSample threemf_parts_sample() {
+  std::string vertices;
+  std::string triangles;
+  for (std::uint32_t part = 0; part < 2; ++part) {
+    for (const Vec3& p : tetrahedron().positions) {
+      vertices += "<vertex x=\"" + std::to_string(p.x - 5.0) + "\" y=\"" + std::to_string(p.y) +
+                  "\" z=\"" + std::to_string(p.z) + "\"/>";
+    }
+    for (const auto& [a, b, c] : tetrahedron().triangles) {
+      const auto corner = [&](std::uint32_t v) { return std::to_string(v + 4 * part); };
+      triangles += "<triangle v1=\"" + corner(a) + "\" v2=\"" + corner(b) + "\" v3=\"" + corner(c) +
+                   "\" pid=\"1\" p1=\"1\"/>";
+    }
+  }
+  const std::string model =
+      R"(<model unit="millimeter"><resources><basematerials id="1"><base name="a" )"
+      R"(displaycolor="#12"/><base name="b" displaycolor="#0A0b0C80"/></basematerials>)"
+      R"(<object id="7" pid="1" pindex="0"><mesh><vertices>)" +
+      vertices + "</vertices><triangles>" + triangles +
+      R"(</triangles></mesh></object><object id="8" name="two"><components><component )"
+      R"(objectid="7" transform="1 0 0 0 1 0 0 0 1 5 0 0"/></components></object></resources>)"
+      R"(<build><item objectid="8"/></build></model>)";
+  const std::string config =
+      R"(<config><object id="7"><metadata key="name" value="a &amp; b"/><volume firstid="0" )"
+      R"(lastid="3"><metadata key="name" value="a"/></volume><volume firstid="4" lastid="7">)"
+      R"(<metadata key="volume_type" value="ParameterModifier"/></volume></object></config>)";
+  return {"threemf_parts", "cut.3mf",
+          zip_of({relations(), stored("3D/a.model", model),
+                  stored("Metadata/Slic3r_PE_model.config", config)}),
+          joined_3mf, never};
+}
+
 }  // namespace
 
 std::vector<MeshSample> mesh_samples() {
@@ -169,7 +213,8 @@ std::vector<MeshSample> mesh_samples() {
           {"stl_binary", "cut.stl", written("a.stl"), io::parse_stl, never},
           {"ply_little", "cut.ply", written("a.ply"), io::parse_ply, never},
           {"glb", "cut.glb", written("a.glb"), io::parse_glb, never},
-          {"threemf", "cut.3mf", written("a.3mf"), io::parse_3mf, never}};
+          {"threemf", "cut.3mf", written("a.3mf"), joined_3mf, never},
+          threemf_parts_sample()};
 }
 
 std::ostream& operator<<(std::ostream& out, const MeshSample& sample) { return out << sample.id; }

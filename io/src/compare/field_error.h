@@ -4,7 +4,7 @@
 #include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
-#include "argil/mesh/decimate.h"
+#include "argil/mesh/certificate.h"
 
 namespace argil::io {
 

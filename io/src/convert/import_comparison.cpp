@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an import lost, filled, added or merged, by sampling both ways. Some thousand points are
+// What an import lost, filled, added or fused, by sampling both ways. Some thousand points are
 // enough to notice a limb or a gap; they are no bound of the error.
 #include "argil/io/import_comparison.h"
 
@@ -8,15 +8,18 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "argil/core/no_throw.h"
 #include "argil/core/winding_number.h"
 #include "argil/engine/field_sampler.h"
 #include "argil/engine/mesh_distance.h"
+#include "argil/io/body_parts.h"
+#include "argil/mesh/bodies.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/edges.h"
-#include "argil/mesh/intersections.h"
 #include "argil/mesh/triangle_geometry.h"
 
 namespace argil::io {
@@ -122,8 +125,10 @@ class ImportComparing {
   void measure_mesh();
   void measure_point(const ComparedPoint& point, FieldSampler& field);
   void measure_surface();
-  void find_merged();
-  bool has_crossing_parts() const;
+  std::vector<TriangleMesh> parts_of_mesh();
+  std::uint32_t body_around(const TriangleMesh& part,
+                            const std::vector<std::uint32_t>& bodies) const;
+  void find_fused();
   void say_all_is_lost();
 
   const PreparedMesh& prepared_;
@@ -223,30 +228,54 @@ void ImportComparing::measure_surface() {
   }
 }
 
-/// From a voxel in front of one part, another is nearer where they are less than two voxels apart.
-/// Nothing has merged where parts meet in the mesh itself.
-void ImportComparing::find_merged() {
-  const TriangleMesh& mesh = prepared_.mesh;
-  const mesh::MeshParts parts = mesh::mesh_parts(mesh, mesh::EdgeTable(mesh), false);
-  const MeshDistance parts_at(mesh.positions, mesh.triangles);
-  for_each_compared_point(mesh, [&](const ComparedPoint& point) {
-    const Vec3 in_front = point.at + voxel_mm_ * point.normal;
-    const auto closest = parts_at.closest(in_front, voxel_mm_);
-    if (closest.triangle == kNoTriangle) return;
-    if (parts.of_triangle[closest.triangle] == parts.of_triangle[point.triangle]) return;
-    found_.has_inner_walls = found_.has_inner_walls || is_inner_wall(point);
-    const double apart = length(closest.point - point.at);
-    if (!found_.merged || apart < found_.merged->distance_mm) found_.merged = {point.at, apart};
-  });
+/// The parts that the file names, else the bodies of the mesh.
+std::vector<TriangleMesh> ImportComparing::parts_of_mesh() {
+  const TriangleMesh& mesh = prepared_.given;
+  if (!prepared_.part_names.empty()) {
+    found_.part_names = prepared_.part_names;
+    return mesh::split_mesh(mesh, prepared_.part_of);
+  }
+  std::vector<TriangleMesh> bodies = mesh::split_mesh(mesh, bodies_of(mesh));
+  for (std::size_t n = 1; n <= bodies.size(); ++n) {
+    found_.part_names.push_back("body " + std::to_string(n));
+  }
+  return bodies;
 }
 
-/// Parts that reach into each other are one body, however little they do.
-bool ImportComparing::has_crossing_parts() const {
-  const TriangleMesh& mesh = prepared_.mesh;
-  const mesh::MeshParts parts = mesh::mesh_parts(mesh, mesh::EdgeTable(mesh), false);
-  return std::ranges::any_of(mesh::self_intersections(mesh, {}), [&](const auto& pair) {
-    return parts.of_triangle[pair.first] != parts.of_triangle[pair.second];
-  });
+/// The body of the clay's surface that most of some corners of a part are nearest to.
+std::uint32_t ImportComparing::body_around(const TriangleMesh& part,
+                                           const std::vector<std::uint32_t>& bodies) const {
+  constexpr std::size_t kAsked = 15;
+  std::map<std::uint32_t, int> votes;
+  const std::size_t count = std::min(kAsked, part.triangles.size());
+  for (std::size_t n = 0; n < count; ++n) {
+    const Vec3 at = mesh::middle(mesh::corners_of(part, n * part.triangles.size() / count));
+    const auto closest = clay_at_->closest(at, std::numeric_limits<double>::infinity());
+    ++votes[bodies[closest.triangle]];
+  }
+  return std::max_element(votes.begin(), votes.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// Of the pairs that are near, those whose parts have become one body. Nothing has fused where
+/// bodies without names meet in the mesh itself.
+void ImportComparing::find_fused() {
+  constexpr double kReachVoxels = 2.0;
+  const std::vector<TriangleMesh> parts = parts_of_mesh();
+  if (parts.size() > mesh::kMostParts) return;
+  const Progress none;
+  const std::vector<mesh::PartGap> gaps =
+      mesh::part_gaps(parts, kReachVoxels * voxel_mm_, Pace(none, "gaps"));
+  if (gaps.empty()) return;
+  if (!clay_at_) clay_at_.emplace(surface_.positions, surface_.triangles);
+  const std::vector<std::uint32_t> bodies = mesh::mesh_bodies(surface_).of_triangle;
+  std::vector<std::uint32_t> body_of;
+  for (const TriangleMesh& part : parts) body_of.push_back(body_around(part, bodies));
+  for (const mesh::PartGap& gap : gaps) {
+    const bool is_meant = prepared_.part_names.empty() && gap.meet();
+    if (body_of[gap.a] == body_of[gap.b] && !is_meant) found_.fused.push_back(gap);
+  }
 }
 
 /// Of a sheet or a plate so thin that no node came to lie in it.
@@ -269,9 +298,9 @@ ImportComparison ImportComparing::run() {
   compare_bodies();
   measure_mesh();
   measure_surface();
-  const bool has_fewer = found_.given_bodies && found_.bodies < *found_.given_bodies;
-  if (has_fewer && !found_.has_inner_walls) find_merged();
-  if (found_.has_inner_walls || (found_.merged && has_crossing_parts())) found_.merged.reset();
+  const auto parts = static_cast<std::int64_t>(prepared_.part_names.size());
+  if (found_.bodies < std::max(parts, found_.given_bodies.value_or(0))) find_fused();
+  if (found_.fused.empty()) found_.part_names.clear();
   return found_;
 }
 

@@ -9,8 +9,12 @@
 #include <string>
 #include <utility>
 
+#include "argil/core/no_throw.h"
 #include "argil/engine/import_estimate.h"
+#include "argil/io/assembly.h"
+#include "argil/io/body_parts.h"
 #include "argil/mesh/compact.h"
+#include "argil/mesh/part_gaps.h"
 
 namespace argil::io {
 namespace {
@@ -55,15 +59,13 @@ std::string file_in_quotes(const std::filesystem::path& file) {
   return std::string(1, '\'').append(file.string()).append("'");
 }
 
-/// Scales about the origin of the file, so that what lay on a plane of symmetry stays on it.
-Result<void> bring_to_size(const std::filesystem::path& file, double size_mm,
-                           PreparedMesh& prepared) {
+/// The scale that brings a side to the size that is wanted.
+/// Errors  bad_input for a size that is a mistake about units.
+Result<double> scale_for(const std::filesystem::path& file, double side, double size_mm) {
   assert(size_mm >= 0.0);
-  const double side = largest_side(prepared.given);
-  if (size_mm > 0.0 && side > 0.0) prepared.scale = size_mm / side;
-  for (Vec3& p : prepared.given.positions) p *= prepared.scale;
-  const double scaled = side * prepared.scale;
-  if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return {};
+  const double scale = size_mm > 0.0 && side > 0.0 ? size_mm / side : 1.0;
+  const double scaled = side * scale;
+  if (scaled >= kSmallestSideMm && scaled <= kLargestSideMm) return scale;
   return Error{ErrorKind::bad_input,
                file_in_quotes(file) + " is " + number(scaled) + " mm across; must be " +
                    number(kSmallestSideMm) + " to " + number(kLargestSideMm) +
@@ -71,25 +73,17 @@ Result<void> bring_to_size(const std::filesystem::path& file, double size_mm,
                    "unit with --unit"};
 }
 
-}  // namespace
-
-Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
-                                        const MeshPreparation& wanted) {
-  auto read = read_framed_mesh(file, wanted.frame);
-  if (!read) return read.error();
-  PreparedMesh prepared;
-  prepared.given = std::move(read.value().mesh);
-  prepared.frame = read.value().frame;
+/// Closes `given`, which has its size.
+Result<void> close_given(const std::string& name, const MeshPreparation& wanted,
+                         PreparedMesh& prepared) {
   assert(is_in_reach(mesh::used_bounds(prepared.given).min) &&
          is_in_reach(mesh::used_bounds(prepared.given).max));
-  if (auto sized = bring_to_size(file, wanted.size_mm, prepared); !sized) return sized.error();
   prepared.given_volume_mm3 = enclosed_volume(prepared.given);
   auto closed = mesh::close_mesh(prepared.given);
   if (!closed) return closed.error();
   const mesh::CloseReport& report = closed.value().report;
   if (!wanted.repairs && report.boundary_edges > 0) {
-    return Error{ErrorKind::bad_input, file_in_quotes(file) + " has " +
-                                           std::to_string(report.boundary_edges) +
+    return Error{ErrorKind::bad_input, name + " has " + std::to_string(report.boundary_edges) +
                                            " open edges; let --repair auto close it"};
   }
   if (wanted.repairs) {
@@ -99,7 +93,94 @@ Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
     prepared.mesh = prepared.given;
   }
   prepared.largest_side_mm = largest_side(prepared.mesh);
+  return {};
+}
+
+/// About the origin of the file, so that what lay on a plane of symmetry stays on it.
+void scale_by(double scale, TriangleMesh& mesh) {
+  for (Vec3& p : mesh.positions) p *= scale;
+}
+
+/// Names the parts of a file that has several, and numbers their triangles as `joined` does.
+void note_parts(const Assembly& assembly, PreparedMesh& prepared) {
+  const std::vector<PlacedPart> parts = placed_parts(assembly);
+  if (parts.size() < 2) return;
+  for (const PlacedPart& part : parts) {
+    const auto number = static_cast<std::uint32_t>(prepared.part_names.size());
+    const std::size_t triangles = assembly.objects[part.object].mesh.triangles.size();
+    prepared.part_of.insert(prepared.part_of.end(), triangles, number);
+    prepared.part_names.push_back(part.name);
+  }
+}
+
+Result<PreparedMesh> prepare(ReadAssembly read, const std::filesystem::path& file,
+                             const MeshPreparation& wanted) {
+  PreparedMesh prepared;
+  prepared.frame = read.frame;
+  prepared.notes = std::move(read.notes);
+  note_parts(read.assembly, prepared);
+  prepared.given = joined(std::move(read.assembly));
+  const auto scale = scale_for(file, largest_side(prepared.given), wanted.size_mm);
+  if (!scale) return scale.error();
+  prepared.scale = scale.value();
+  scale_by(prepared.scale, prepared.given);
+  if (auto closed = close_given(file_in_quotes(file), wanted, prepared); !closed) {
+    return closed.error();
+  }
   return prepared;
+}
+
+Result<PreparedParts> prepare_parts(ReadAssembly read, const std::filesystem::path& file,
+                                    const MeshPreparation& wanted) {
+  const Assembly assembly = split_into_bodies(std::move(read.assembly));
+  const std::vector<PlacedPart> placed = placed_parts(assembly);
+  if (placed.size() > mesh::kMostParts) {
+    return Error{ErrorKind::bad_input,
+                 file_in_quotes(file) + " has " + std::to_string(placed.size()) +
+                     " parts; must be at most " + std::to_string(mesh::kMostParts) +
+                     " to keep each in a clay of its own: split it, or import it as one clay"};
+  }
+  PreparedParts prepared;
+  prepared.frame = read.frame;
+  prepared.notes = std::move(read.notes);
+  Box3 box;
+  for (const PlacedPart& part : placed) {
+    prepared.names.push_back(part.name);
+    PreparedMesh& own = prepared.parts.emplace_back();
+    own.given = placed_mesh(assembly.objects[part.object].mesh, part.to_mm);
+    for (const Vec3& p : own.given.positions) box.include(p);
+  }
+  const Vec3 size = box.size();
+  const double side = std::max({size.x, size.y, size.z});
+  const auto scale = scale_for(file, side, wanted.size_mm);
+  if (!scale) return scale.error();
+  prepared.largest_side_mm = side * scale.value();
+  for (std::size_t p = 0; p < prepared.parts.size(); ++p) {
+    PreparedMesh& own = prepared.parts[p];
+    const std::string name = "part '" + prepared.names[p] + "'";
+    own.scale = scale.value();
+    scale_by(own.scale, own.given);
+    auto closed = close_given("it", wanted, own);
+    if (!closed) return Error{closed.error().kind, name + ": " + closed.error().message};
+  }
+  return prepared;
+}
+
+}  // namespace
+
+Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
+                                        const MeshPreparation& wanted) {
+  auto read = read_assembly(file, wanted.frame);
+  if (!read) return read.error();
+  return no_throw(file.string(), [&] { return prepare(std::move(read).value(), file, wanted); });
+}
+
+Result<PreparedParts> read_prepared_parts(const std::filesystem::path& file,
+                                          const MeshPreparation& wanted) {
+  auto read = read_assembly(file, wanted.frame);
+  if (!read) return read.error();
+  return no_throw(file.string(),
+                  [&] { return prepare_parts(std::move(read).value(), file, wanted); });
 }
 
 bool is_likely_to_fit(const PreparedMesh& prepared, double voxel_mm) {

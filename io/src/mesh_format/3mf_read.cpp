@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // 3MF: a ZIP archive whose model parts hold meshes, components that place other objects, and the
 // build: what is to be printed, and where. Read here: core specification 1.3 (mesh, components,
-// items, transforms, units) and the production extension's `path` to other parts; materials,
-// beams and slices are passed over.
-#include <algorithm>
+// items, transforms, units), the colors of the materials extension, the production extension's
+// `path` to other parts, and what slicers say of objects beside the model; beams and slices are
+// passed over.
 #include <array>
 #include <map>
 #include <optional>
@@ -11,9 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "argil/mesh/bodies.h"
+
 #include "format/text_scan.h"
 #include "format/xml_scan.h"
 #include "format/zip_read.h"
+#include "mesh_format/3mf_names.h"
+#include "mesh_format/3mf_part.h"
 #include "mesh_format/face_collector.h"
 #include "mesh_format/mesh_read.h"
 
@@ -30,231 +34,46 @@ constexpr int kDeepest = 64;
 constexpr std::uint64_t kUnpackedBytes = 128 << 20;
 constexpr std::uint64_t kUnpackedTimes = 64;
 
-/// Row vectors, as in the specification: p' = p * rows[0..2] + rows[3].
-struct Transform {
-  std::array<Vec3, 4> rows{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{}};
-
-  Vec3 turned(const Vec3& p) const noexcept {
-    return p.x * rows[0] + p.y * rows[1] + p.z * rows[2];
-  }
-  Vec3 applied(const Vec3& p) const noexcept { return turned(p) + rows[3]; }
-  /// First this, then `outer`.
-  Transform then(const Transform& outer) const noexcept {
-    return {{outer.turned(rows[0]), outer.turned(rows[1]), outer.turned(rows[2]),
-             outer.applied(rows[3])}};
-  }
-  bool mirrors() const noexcept { return dot(rows[0], cross(rows[1], rows[2])) < 0.0; }
-};
-
-/// An object placed by a component or a build item.
-struct ItemPlacement {
-  std::string part;  ///< of the archive; empty: the one it is written in
-  std::int64_t object = 0;
-  Transform transform;
-};
-
-struct Object {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
-  std::vector<ItemPlacement> components;
-};
-
-struct ModelPart {
-  double unit_mm = 1.0;
-  std::map<std::int64_t, Object> objects;
-  std::vector<ItemPlacement> build;
-};
-
-std::optional<double> unit_in_mm(std::string_view unit) {
-  // The default of the specification.
-  if (unit.empty() || unit == "millimeter") return 1.0;
-  if (unit == "micron") return 0.001;
-  if (unit == "centimeter") return 10.0;
-  if (unit == "meter") return 1000.0;
-  if (unit == "inch") return 25.4;
-  if (unit == "foot") return 304.8;
-  return std::nullopt;
-}
-
-/// Reads one model part.
-class PartParser {
- public:
-  PartParser(XmlScan::TakePiece text, std::string where)
-      : xml_(std::move(text)), where_(std::move(where)) {}
-
-  Result<ModelPart> parse();
-
- private:
-  Result<void> opened();
-  Result<void> required_extensions();
-  Result<void> model();
-  Result<void> object();
-  Result<void> vertex();
-  Result<void> triangle();
-  Result<void> close_object();
-  Result<ItemPlacement> placement();
-  Result<Transform> transform(std::string_view text);
-  Error fail(const std::string& message) const { return line_error(where_, xml_.line(), message); }
-
-  XmlScan xml_;
-  std::string where_;
-  ModelPart part_;
-  Object* object_ = nullptr;
-  FaceCollector faces_;
-  std::vector<std::int64_t> corners_;
-};
-
-/// What a reader must know to read the part at all. Materials say nothing of shapes, nor did the
-/// first draft of volumes; slices, beams and sets of triangles are passed over; `path` is read.
-Result<void> PartParser::required_extensions() {
-  constexpr std::array<std::string_view, 6> kKnown{"/material/",     "/production/",
-                                                   "/slice/",        "/beamlattice/",
-                                                   "/trianglesets/", "/volumetric/2015/"};
-  std::string_view prefixes = xml_.attribute("requiredextensions");
-  for (auto prefix = take_token(prefixes); !prefix.empty(); prefix = take_token(prefixes)) {
-    std::string_view space = xml_.attribute(prefix);  // of "xmlns:PREFIX"
-    const bool is_known = std::any_of(kKnown.begin(), kKnown.end(), [&](std::string_view known) {
-      return space.find(known) != std::string_view::npos;
-    });
-    if (is_known) continue;
-    // Without scheme and host, which say the least.
-    const std::size_t host = space.find("://");
-    const std::size_t path = host == space.npos ? space.npos : space.find('/', host + 3);
-    if (path != space.npos) space.remove_prefix(path + 1);
-    return fail("it requires the extension " + in_quotes(space.empty() ? prefix : space) +
-                ", which is not read here; export without it");
-  }
-  return {};
-}
-
-Result<void> PartParser::model() {
-  if (auto known = required_extensions(); !known) return known;
-  const std::optional<double> unit = unit_in_mm(xml_.attribute("unit"));
-  if (!unit) return fail("unknown unit " + in_quotes(xml_.attribute("unit")));
-  part_.unit_mm = *unit;
-  return {};
-}
-
-Result<void> PartParser::object() {
-  std::int64_t id = 0;
-  if (!read_integer(xml_.attribute("id"), id)) return fail("an object has no id");
-  object_ = &part_.objects[id];
-  *object_ = {};
-  faces_ = {};
-  return {};
-}
-
-Result<void> PartParser::vertex() {
-  Vec3 point;
-  if (!read_number(xml_.attribute("x"), point.x) || !read_number(xml_.attribute("y"), point.y) ||
-      !read_number(xml_.attribute("z"), point.z)) {
-    return fail("a vertex needs the numbers x, y and z; export the file again");
-  }
-  if (!is_finite(point)) {
-    return fail("a coordinate is NaN or infinite; repair the mesh where it was made");
-  }
-  object_->positions.push_back(point);
-  return {};
-}
-
-Result<void> PartParser::triangle() {
-  corners_.assign(3, 0);
-  if (!read_integer(xml_.attribute("v1"), corners_[0]) ||
-      !read_integer(xml_.attribute("v2"), corners_[1]) ||
-      !read_integer(xml_.attribute("v3"), corners_[2])) {
-    return fail("a triangle needs the whole numbers v1, v2 and v3; export the file again");
-  }
-  const std::string problem = faces_.add(corners_, 0);
-  return problem.empty() ? Result<void>() : fail(problem);
-}
-
-Result<void> PartParser::close_object() {
-  const auto count = static_cast<std::int64_t>(object_->positions.size());
-  if (faces_.highest() >= count) {
-    return fail("a triangle of this object names vertex " + std::to_string(faces_.highest()) +
-                " (from 0) of only " + std::to_string(count) + "; export the file again");
-  }
-  object_->triangles = faces_.take(object_->positions);
-  object_ = nullptr;
-  return {};
-}
-
-Result<Transform> PartParser::transform(std::string_view text) {
-  Transform result;
-  if (text.empty()) return result;
-  for (std::size_t i = 0; i < 12; ++i) {
-    if (!read_number(take_token(text), result.rows[i / 3][i % 3])) {
-      return fail("a transform needs 12 numbers");
-    }
-  }
-  for (const Vec3& row : result.rows) {
-    if (!is_finite(row)) return fail("a transform is NaN or infinite");
-  }
-  return result;
-}
-
-Result<ItemPlacement> PartParser::placement() {
-  ItemPlacement placement;
-  placement.part = xml_.attribute("path");
-  if (!read_integer(xml_.attribute("objectid"), placement.object)) {
-    return fail("a component or item has no objectid");
-  }
-  const Result<Transform> placed = transform(xml_.attribute("transform"));
-  if (!placed) return placed.error();
-  placement.transform = placed.value();
-  return placement;
-}
-
-Result<void> PartParser::opened() {
-  const std::string_view name = xml_.name();
-  if (name == "model" && xml_.depth() == 1) return model();
-  if (name == "object") return object();
-  if (object_ != nullptr && name == "vertex") return vertex();
-  if (object_ != nullptr && name == "triangle") return triangle();
-  if (name == "item" || (object_ != nullptr && name == "component")) {
-    Result<ItemPlacement> placed = placement();
-    if (!placed) return placed.error();
-    (name == "item" ? part_.build : object_->components).push_back(std::move(placed).value());
-  }
-  return {};
-}
-
-Result<ModelPart> PartParser::parse() {
-  for (;;) {
-    Result<void> read;
-    switch (xml_.next()) {
-      case XmlScan::Event::open:
-        read = opened();
-        break;
-      case XmlScan::Event::close:
-        if (object_ != nullptr && xml_.name() == "object") read = close_object();
-        break;
-      case XmlScan::Event::end:
-        return std::move(part_);
-      case XmlScan::Event::error:
-        return fail(xml_.problem() + "; export the file again");
-    }
-    if (!read) return read.error();
-  }
-}
-
 /// The archive: finds parts, reads each once, and puts the build together.
 class Package {
  public:
-  Package(std::span<const std::byte> bytes, const std::string& name, StatedUnit& unit)
-      : bytes_(bytes), name_(name), unit_(unit) {}
+  Package(std::span<const std::byte> bytes, const std::string& name, StatedUnit& unit,
+          FileNotes& notes)
+      : bytes_(bytes), name_(name), unit_(unit), notes_(notes) {}
 
-  Result<TriangleMesh> parse();
+  Result<Assembly> parse();
 
  private:
+  /// A model part, and which object of the assembly each of its objects became.
+  struct Part {
+    ModelPart model;
+    double unit_mm = 1.0;
+    std::map<std::int64_t, std::vector<std::size_t>> objects;
+  };
+  using Named = std::pair<const std::string, Part>;
+
   const ZipEntry* find(std::string_view part) const noexcept;
   Result<ZipContent> open(const ZipEntry& entry);
   Result<std::string> root_part();
-  Result<const ModelPart*> part(const std::string& path);
-  Result<void> place(const std::string& from, const ItemPlacement& placement,
-                     const Transform& outer, int depth);
-  Result<void> append(const std::string& part, std::int64_t id, const Object& object,
-                      const Transform& transform, double unit_mm);
+  Result<Named*> part(const std::string& path);
+  void read_names();
+  Result<void> read_names_of(const ZipEntry& entry);
+  const SlicerObject* slicer_object(const Named& home, std::int64_t id) const;
+  Result<void> add_item(Named& root, const ItemPlacement& build);
+  Result<void> place(const Named& from, const ItemPlacement& placement, const Affine& outer,
+                     int depth);
+  Result<void> place_components(const Named& home, std::int64_t id, const Affine& to_mm, int depth);
+  Result<void> place_meshes(Named& home, std::int64_t id, ModelObject& object, const Affine& to_mm);
+  Result<void> place_mesh(const Named& home, std::int64_t id, std::size_t object,
+                          const Affine& to_mm);
+  const std::vector<std::size_t>& objects_of(Named& home, std::int64_t id, ModelObject& object);
+  void add_parted(const SlicerObject& slicer, const std::string& name, ModelObject& object,
+                  std::vector<std::size_t>& made);
+  void note_left_out(const std::string& part, const std::string& object) {
+    notes_.add("'" + part + "' of '" + object +
+               "' is a modifier or blocker of the slicer and no part: left out");
+  }
+  std::size_t add_object(std::string name, std::optional<Srgb> color, TriangleMesh mesh);
   Error fail(const std::string& message) const {
     return {ErrorKind::bad_input, name_ + ": " + message};
   }
@@ -262,10 +81,16 @@ class Package {
   std::span<const std::byte> bytes_;
   const std::string& name_;
   StatedUnit& unit_;
+  FileNotes& notes_;
   std::vector<ZipEntry> entries_;
-  std::map<std::string, ModelPart> parts_;
-  TriangleMesh mesh_;
+  std::map<std::string, Part> parts_;
+  std::string root_;
+  SlicerObjects slicer_;  ///< of the root part
+  Assembly assembly_;
+  std::string component_name_;  ///< that the slicer has for what is being placed
   std::size_t placements_ = 0;
+  std::size_t triangles_ = 0;  ///< of all placements
+  std::size_t vertices_ = 0;
   std::uint64_t unpacked_ = 0;  ///< bytes of what was opened
 };
 
@@ -309,95 +134,215 @@ Result<std::string> Package::root_part() {
   return fail("'_rels/.rels' names no 3D model; export the file again");
 }
 
-Result<const ModelPart*> Package::part(const std::string& path) {
-  if (const auto known = parts_.find(path); known != parts_.end()) return &known->second;
+Result<Package::Named*> Package::part(const std::string& path) {
+  if (const auto known = parts_.find(path); known != parts_.end()) return &*known;
   const ZipEntry* entry = find(path);
   if (entry == nullptr) return fail("the model part " + in_quotes(path) + " is missing");
   Result<ZipContent> content = open(*entry);
   if (!content) return content.error();
   const auto take = [&](std::string& text) { return content.value().take(text); };
   // A damaged archive looks like bad XML, so its own check is asked first.
-  Result<ModelPart> read = PartParser(take, name_ + ": " + entry->name).parse();
+  Result<ModelPart> read = read_model_part(take, name_ + ": " + entry->name, notes_);
   if (auto whole = content.value().check(); !whole) return whole.error();
   if (!read) return read.error();
-  return &(parts_[path] = std::move(read).value());
+  Part part;
+  part.model = std::move(read).value();
+  part.unit_mm = unit_.instead_mm.value_or(part.model.unit_mm);
+  return &*parts_.emplace(path, std::move(part)).first;
 }
 
-Result<void> Package::append(const std::string& part, std::int64_t id, const Object& object,
-                             const Transform& transform, double unit_mm) {
-  if (object.triangles.size() > kMostPlaced - mesh_.triangles.size() ||
-      object.positions.size() > kMostPlaced - mesh_.positions.size()) {
+/// Names are worth less than what they are of: where they are damaged, the parts go without.
+void Package::read_names() {
+  for (const char* file : {"Metadata/Slic3r_PE_model.config", "Metadata/model_settings.config"}) {
+    const ZipEntry* entry = find(file);
+    if (entry == nullptr) continue;
+    if (const Result<void> read = read_names_of(*entry); !read) {
+      slicer_.clear();
+      notes_.add("the slicer's names in '" + entry->name + "' cannot be read (" +
+                 read.error().message + ")");
+    }
+    return;
+  }
+}
+
+Result<void> Package::read_names_of(const ZipEntry& entry) {
+  Result<ZipContent> content = open(entry);
+  if (!content) return content.error();
+  auto read = read_slicer_objects([&](std::string& text) { return content.value().take(text); });
+  if (auto whole = content.value().check(); !whole) return whole;
+  if (!read) return read.error();
+  slicer_ = std::move(read).value();
+  return {};
+}
+
+/// Nothing where the slicer has nothing to say of it.
+const SlicerObject* Package::slicer_object(const Named& home, std::int64_t id) const {
+  const auto found = slicer_.find(id);
+  return home.first == root_ && found != slicer_.end() ? &found->second : nullptr;
+}
+
+std::size_t Package::add_object(std::string name, std::optional<Srgb> color, TriangleMesh mesh) {
+  assembly_.objects.push_back({std::move(name), color, std::move(mesh)});
+  return assembly_.objects.size() - 1;
+}
+
+/// What the slicer had merged into one mesh.
+void Package::add_parted(const SlicerObject& slicer, const std::string& name, ModelObject& object,
+                         std::vector<std::size_t>& made) {
+  std::vector<std::uint32_t> part_of;
+  for (std::size_t p = 0; p < slicer.ranges.size(); ++p) {
+    part_of.resize(static_cast<std::size_t>(slicer.ranges[p].last_triangle) + 1,
+                   static_cast<std::uint32_t>(p));
+  }
+  std::vector<TriangleMesh> meshes = mesh::split_mesh(object.mesh, part_of);
+  object.mesh = {};
+  for (std::size_t p = 0; p < meshes.size(); ++p) {
+    const SlicerPart& part = slicer.ranges[p];
+    if (part.is_printed) {
+      made.push_back(
+          add_object(part.name.empty() ? name : part.name, object.color, std::move(meshes[p])));
+    } else {
+      note_left_out(part.name, name);
+    }
+  }
+}
+
+/// Of an object's own mesh, once.
+const std::vector<std::size_t>& Package::objects_of(Named& home, std::int64_t id,
+                                                    ModelObject& object) {
+  const auto [known, is_new] = home.second.objects.try_emplace(id);
+  std::vector<std::size_t>& made = known->second;
+  if (!is_new || object.mesh.triangles.empty()) return made;
+  for (Vec3& p : object.mesh.positions) p *= home.second.unit_mm;
+  const SlicerObject* slicer = slicer_object(home, id);
+  std::string name = object.name.empty() ? component_name_ : object.name;
+  if (name.empty() && slicer != nullptr) name = slicer->name;
+  if (slicer != nullptr && slicer->ranges.size() == 1 && name.empty())
+    name = slicer->ranges[0].name;
+  if (slicer != nullptr && slicer->ranges.size() > 1) {
+    if (covers_triangles(*slicer, object.mesh.triangles.size())) {
+      add_parted(*slicer, name, object, made);
+      return made;
+    }
+    notes_.add("the slicer's parts of '" + name + "' do not fit its triangles: it stays one part");
+  }
+  made.push_back(add_object(std::move(name), object.color, std::move(object.mesh)));
+  return made;
+}
+
+Result<void> Package::place_mesh(const Named& home, std::int64_t id, std::size_t object,
+                                 const Affine& to_mm) {
+  const TriangleMesh& mesh = assembly_.objects[object].mesh;
+  if (mesh.triangles.size() > kMostPlaced - triangles_ ||
+      mesh.positions.size() > kMostPlaced - vertices_) {
     return fail("its placed objects have more than " + std::to_string(kMostPlaced) +
                 " triangles or vertices; split it");
   }
-  const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
-  for (std::size_t v = 0; v < object.positions.size(); ++v) {
-    mesh_.positions.push_back(transform.applied(object.positions[v]) * unit_mm);
-    const std::string problem = position_problem(mesh_.positions.back());
+  triangles_ += mesh.triangles.size();
+  vertices_ += mesh.positions.size();
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const std::string problem = position_problem(to_mm.applied(mesh.positions[v]));
     if (problem.empty()) continue;
-    return fail(part + ": vertex " + std::to_string(v) + " (from 0) of object " +
+    return fail(home.first + ": vertex " + std::to_string(v) + " (from 0) of object " +
                 std::to_string(id) + ", as it is placed: " + problem);
   }
-  // A mirrored object would face inward.
-  const bool mirrored = transform.mirrors();
-  for (const Triangle& t : object.triangles) {
-    mesh_.triangles.push_back(
-        {base + t[0], base + t[mirrored ? 2 : 1], base + t[mirrored ? 1 : 2]});
+  assembly_.items.back().placements.push_back({object, to_mm});
+  return {};
+}
+
+Result<void> Package::place_meshes(Named& home, std::int64_t id, ModelObject& object,
+                                   const Affine& to_mm) {
+  for (const std::size_t made : objects_of(home, id, object)) {
+    if (Result<void> placed = place_mesh(home, id, made, to_mm); !placed) return placed;
   }
   return {};
 }
 
-Result<void> Package::place(const std::string& from, const ItemPlacement& placement,
-                            const Transform& outer, int depth) {
+Result<void> Package::place_components(const Named& home, std::int64_t id, const Affine& to_mm,
+                                       int depth) {
+  const SlicerObject* slicer = slicer_object(home, id);
+  for (const ItemPlacement& component : home.second.model.objects.at(id).components) {
+    component_name_.clear();
+    if (slicer != nullptr) {
+      const auto known = slicer->components.find(component.object);
+      const bool is_known = known != slicer->components.end();
+      if (is_known && !known->second.is_printed) {
+        note_left_out(known->second.name, slicer->name);
+        continue;
+      }
+      if (is_known) component_name_ = known->second.name;
+    }
+    if (Result<void> placed = place(home, component, to_mm, depth); !placed) return placed;
+  }
+  return {};
+}
+
+Result<void> Package::place(const Named& from, const ItemPlacement& placement, const Affine& outer,
+                            int depth) {
   if (depth > kDeepest || ++placements_ > kMostPlacements) {
     return fail("its components place one another without end, or more than " +
                 std::to_string(kMostPlacements) + " times");
   }
-  const std::string path = placement.part.empty() ? from : placement.part;
-  const Result<const ModelPart*> home = part(path);
+  const std::string path = placement.part.empty() ? from.first : placement.part;
+  const Result<Named*> home = part(path);
   if (!home) return home.error();
-  const auto found = home.value()->objects.find(placement.object);
-  if (found == home.value()->objects.end()) {
+  auto& objects = home.value()->second.model.objects;
+  const auto found = objects.find(placement.object);
+  if (found == objects.end()) {
     return fail("object " + std::to_string(placement.object) + " is missing from " +
                 in_quotes(path) + "; export the file again");
   }
-  const Transform transform = placement.transform.then(outer);
-  const Object& object = found->second;
-  const double unit_mm = unit_.instead_mm.value_or(home.value()->unit_mm);
-  auto added = append(path, placement.object, object, transform, unit_mm);
-  if (!added) return added;
-  for (const ItemPlacement& component : object.components) {
-    if (Result<void> placed = place(path, component, transform, depth + 1); !placed) return placed;
+  Affine own = placement.transform;
+  own.rows[3] *= from.second.unit_mm;
+  const Affine to_mm = own.then(outer);
+  auto placed = place_meshes(*home.value(), placement.object, found->second, to_mm);
+  if (!placed) return placed;
+  return place_components(*home.value(), placement.object, to_mm, depth + 1);
+}
+
+Result<void> Package::add_item(Named& root, const ItemPlacement& build) {
+  assembly_.items.emplace_back();
+  component_name_.clear();
+  if (Result<void> placed = place(root, build, {}, 0); !placed) return placed;
+  AssemblyItem& item = assembly_.items.back();
+  if (item.placements.empty()) {
+    assembly_.items.pop_back();
+    return {};
   }
+  Named& home = *part(build.part.empty() ? root.first : build.part).value();
+  const ModelObject& object = home.second.model.objects.at(build.object);
+  if (object.components.empty() && item.placements.size() == 1) return {};
+  const SlicerObject* slicer = slicer_object(home, build.object);
+  item.name = object.name.empty() && slicer != nullptr ? slicer->name : object.name;
   return {};
 }
 
-Result<TriangleMesh> Package::parse() {
+Result<Assembly> Package::parse() {
   Result<std::vector<ZipEntry>> directory = zip_directory(bytes_, name_);
   if (!directory) return directory.error();
   entries_ = std::move(directory).value();
-  const Result<std::string> root = root_part();
+  Result<std::string> root = root_part();
   if (!root) return root.error();
-  const Result<const ModelPart*> model = part(root.value());
+  root_ = std::move(root).value();
+  const Result<Named*> model = part(root_);
   if (!model) return model.error();
-  unit_.mm = model.value()->unit_mm;
-  for (const ItemPlacement& item : model.value()->build) {
-    if (Result<void> placed = place(root.value(), item, {}, 0); !placed) return placed.error();
+  unit_.mm = model.value()->second.model.unit_mm;
+  read_names();
+  for (const ItemPlacement& item : model.value()->second.model.build) {
+    if (Result<void> added = add_item(*model.value(), item); !added) return added.error();
   }
-  if (mesh_.triangles.empty()) return no_triangles(name_);
-  return std::move(mesh_);
+  if (triangles_ == 0) return no_triangles(name_);
+  return std::move(assembly_);
 }
 
 }  // namespace
 
-Result<TriangleMesh> parse_3mf(std::span<const std::byte> bytes, const std::string& name) {
-  StatedUnit unit;
-  return parse_3mf_in(bytes, name, unit);
-}
-
-Result<TriangleMesh> parse_3mf_in(std::span<const std::byte> bytes, const std::string& name,
+Result<ThreemfAssembly> parse_3mf(std::span<const std::byte> bytes, const std::string& name,
                                   StatedUnit& unit) {
-  return Package(bytes, name, unit).parse();
+  FileNotes notes;
+  Result<Assembly> assembly = Package(bytes, name, unit, notes).parse();
+  if (!assembly) return assembly.error();
+  return ThreemfAssembly{std::move(assembly).value(), notes.take()};
 }
 
 }  // namespace argil::io

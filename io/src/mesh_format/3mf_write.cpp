@@ -1,43 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // 3MF, core specification 1.3: a ZIP archive of the content types, the relationship that names the
 // model, and the model. Coordinates are the shortest decimals that give the same floats back.
-#include <cassert>
+#include "mesh_format/3mf_write.h"
+
+#include <array>
+#include <cstdio>
+#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "argil/mesh/bodies.h"
 #include "argil/mesh/rounding.h"
 
+#include "format/xml_text.h"
 #include "format/zip_write.h"
 #include "mesh_format/chunks.h"
 
 namespace argil::io {
 namespace {
-
-std::string xml_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        // XML 1.0 has no other control characters, not even escaped.
-        escaped += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-  }
-  return escaped;
-}
 
 constexpr std::string_view kContentTypes =
     R"(<?xml version="1.0" encoding="UTF-8"?>
@@ -53,64 +32,137 @@ constexpr std::string_view kRelationships =
 </Relationships>
 )";
 
-/// One mesh as an object; `name` is left out when empty.
-Result<void> write_object(Chunks& chunks, std::size_t id, const std::string& name,
-                          const TriangleMesh& mesh) {
-  chunks.text("  <object id=\"").number(id).text("\" type=\"model\"");
-  if (!name.empty()) chunks.text(" name=\"").text(xml_escaped(name)).text("\"");
-  chunks.text(">\n   <mesh>\n    <vertices>\n");
-  Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
+/// The model as XML: a group of colors, where there are any, the meshes, the objects of components
+/// and the build. Numbers of objects go on from one to the next.
+class ModelWriter {
+ public:
+  ModelWriter(Chunks& chunks, const ThreemfModel& model) : chunks_(chunks), model_(model) {}
+
+  Result<void> write();
+
+ private:
+  void write_head();
+  void write_colors();
+  Result<void> write_mesh(const ThreemfObject& object);
+  Result<void> write_components(const AssemblyItem& item);
+  void write_placement(const char* element, std::size_t id, const Affine& to_mm);
+  void begin_object(const std::string& name);
+  static bool is_grouped(const AssemblyItem& item) {
+    return item.placements.size() > 1 || !item.name.empty();
+  }
+
+  Chunks& chunks_;
+  const ThreemfModel& model_;
+  std::map<Srgb, std::size_t> colors_;  ///< the place of each in its group
+  std::size_t last_id_ = 0;
+  std::size_t first_object_ = 0;
+};
+
+void ModelWriter::write_head() {
+  chunks_.text(R"(<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:argil="urn:argil:certificate">
+ <metadata name="Title">)");
+  chunks_.text(xml_escaped(plain_name(model_.title, Assembly::kLongestName)))
+      .text("</metadata>\n <metadata name=\"Application\">Argil</metadata>");
+  for (const auto& [name, value] : model_.metadata) {
+    chunks_.text("\n <metadata name=\"").text(xml_escaped(name)).text("\">");
+    chunks_.text(xml_escaped(value)).text("</metadata>");
+  }
+  chunks_.text("\n <resources>\n");
+}
+
+/// Each color once, in the order of the objects; a material has to have a name.
+void ModelWriter::write_colors() {
+  for (const ThreemfObject& object : model_.objects) {
+    if (!object.color || !colors_.try_emplace(*object.color, colors_.size()).second) continue;
+    if (colors_.size() == 1) {
+      chunks_.text("  <basematerials id=\"").number(++last_id_).text("\">\n");
+    }
+    const auto [red, green, blue] = *object.color;
+    std::array<char, 8> code;
+    std::snprintf(code.data(), code.size(), "#%02X%02X%02X", red, green, blue);
+    chunks_.text("   <base name=\"").text(code.data()).text("\" displaycolor=\"");
+    chunks_.text(code.data()).text("\"/>\n");
+    chunks_.step();
+  }
+  if (!colors_.empty()) chunks_.text("  </basematerials>\n");
+}
+
+void ModelWriter::begin_object(const std::string& name) {
+  chunks_.text("  <object id=\"").number(++last_id_).text("\" type=\"model\"");
+  if (!name.empty())
+    chunks_.text(" name=\"").text(xml_escaped(plain_name(name, Assembly::kLongestName))).text("\"");
+}
+
+Result<void> ModelWriter::write_mesh(const ThreemfObject& object) {
+  begin_object(object.name);
+  if (object.color) {
+    chunks_.text(" pid=\"1\" pindex=\"").number(colors_.at(*object.color)).text("\"");
+  }
+  chunks_.text(">\n   <mesh>\n    <vertices>\n");
+  Result<void> written = write_each(chunks_, object.mesh->positions, [&](const Vec3& p) {
     const auto [x, y, z] = mesh::floats_of(p);
-    chunks.text("<vertex x=\"").number(x).text("\" y=\"").number(y).text("\" z=\"").number(z);
-    chunks.text("\"/>\n");
+    chunks_.text("<vertex x=\"").number(x).text("\" y=\"").number(y).text("\" z=\"").number(z);
+    chunks_.text("\"/>\n");
   });
   if (!written) return written;
-  chunks.text("    </vertices>\n    <triangles>\n");
-  written = write_each(chunks, mesh.triangles, [&](const Triangle& t) {
-    chunks.text("<triangle v1=\"").number(t[0]).text("\" v2=\"").number(t[1]).text("\" v3=\"");
-    chunks.number(t[2]).text("\"/>\n");
+  chunks_.text("    </vertices>\n    <triangles>\n");
+  written = write_each(chunks_, object.mesh->triangles, [&](const Triangle& t) {
+    chunks_.text("<triangle v1=\"").number(t[0]).text("\" v2=\"").number(t[1]);
+    chunks_.text("\" v3=\"").number(t[2]).text("\"/>\n");
   });
-  chunks.text("    </triangles>\n   </mesh>\n  </object>\n");
+  chunks_.text("    </triangles>\n   </mesh>\n  </object>\n");
   return written;
 }
 
-/// An object for each part, and one of components that holds them where they are.
-Result<void> write_parts(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options,
-                         std::size_t& last_id) {
-  assert(options.parts.size() == mesh.triangles.size());
-  const std::vector<TriangleMesh> parts = mesh::split_mesh(mesh, options.parts);
-  for (const TriangleMesh& part : parts) {
-    const std::string name = options.title + " " + std::to_string(++last_id);
-    if (Result<void> written = write_object(chunks, last_id, name, part); !written) return written;
+void ModelWriter::write_placement(const char* element, std::size_t id, const Affine& to_mm) {
+  chunks_.text(element).text(" objectid=\"").number(id).text("\"");
+  if (!to_mm.is_identity()) {
+    chunks_.text(" transform=\"");
+    for (std::size_t i = 0; i < 12; ++i) {
+      if (i > 0) chunks_.text(" ");
+      chunks_.number(to_mm.rows[i / 3][i % 3]);
+    }
+    chunks_.text("\"");
   }
-  ++last_id;
-  chunks.text("  <object id=\"").number(last_id).text("\" type=\"model\" name=\"");
-  chunks.text(xml_escaped(options.title)).text("\">\n   <components>\n");
-  for (std::size_t id = 1; id < last_id; ++id) {
-    chunks.text("    <component objectid=\"").number(id).text("\"/>\n");
-    if (!chunks.step()) return writing_stopped();
+  chunks_.text("/>\n");
+}
+
+Result<void> ModelWriter::write_components(const AssemblyItem& item) {
+  begin_object(item.name);
+  chunks_.text(">\n   <components>\n");
+  for (const PlacedObject& placed : item.placements) {
+    write_placement("    <component", first_object_ + placed.object, placed.to_mm);
+    if (!chunks_.step()) return writing_stopped();
   }
-  chunks.text("   </components>\n  </object>\n");
+  chunks_.text("   </components>\n  </object>\n");
   return {};
 }
 
-Result<void> write_model(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options) {
-  chunks.text(R"(<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" xmlns:argil="urn:argil:certificate">
- <metadata name="Title">)");
-  chunks.text(xml_escaped(options.title))
-      .text("</metadata>\n <metadata name=\"Application\">Argil</metadata>");
-  for (const auto& [name, value] : options.metadata) {
-    chunks.text("\n <metadata name=\"").text(xml_escaped(name)).text("\">");
-    chunks.text(xml_escaped(value)).text("</metadata>");
+Result<void> ModelWriter::write() {
+  write_head();
+  write_colors();
+  first_object_ = last_id_ + 1;
+  for (const ThreemfObject& object : model_.objects) {
+    if (Result<void> written = write_mesh(object); !written) return written;
   }
-  chunks.text("\n <resources>\n");
-  std::size_t last_id = 0;
-  Result<void> written = options.parts.empty() ? write_object(chunks, ++last_id, "", mesh)
-                                               : write_parts(chunks, mesh, options, last_id);
-  chunks.text(" </resources>\n <build>\n  <item objectid=\"").number(last_id);
-  chunks.text("\"/>\n </build>\n</model>\n");
-  return written;
+  std::size_t group = last_id_;
+  for (const AssemblyItem& item : *model_.items) {
+    if (!is_grouped(item)) continue;
+    if (Result<void> written = write_components(item); !written) return written;
+  }
+  chunks_.text(" </resources>\n <build>\n");
+  for (const AssemblyItem& item : *model_.items) {
+    if (is_grouped(item)) {
+      write_placement("  <item", ++group, {});
+    } else {
+      write_placement("  <item", first_object_ + item.placements[0].object,
+                      item.placements[0].to_mm);
+    }
+    if (!chunks_.step()) return writing_stopped();
+  }
+  chunks_.text(" </build>\n</model>\n");
+  return {};
 }
 
 Result<void> write_entry(ZipWriter& zip, const std::string& name, std::string_view content) {
@@ -121,16 +173,18 @@ Result<void> write_entry(ZipWriter& zip, const std::string& name, std::string_vi
 
 }  // namespace
 
-Result<void> write_3mf(OutputFile& out, const TriangleMesh& mesh, const WriteOptions& options,
-                       const Progress& progress) {
+Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress) {
   ZipWriter zip(out);
   Result<void> written = write_entry(zip, "[Content_Types].xml", kContentTypes);
   if (written) written = write_entry(zip, "_rels/.rels", kRelationships);
   if (!written) return written;
+  std::size_t steps = model.items->size();
+  for (const ThreemfObject& object : model.objects) {
+    steps += object.mesh->positions.size() + object.mesh->triangles.size();
+  }
   zip.begin("3D/3dmodel.model");
-  Chunks chunks([&](std::string_view data) { zip.write(data); }, progress,
-                mesh.positions.size() + mesh.triangles.size());
-  written = write_model(chunks, mesh, options);
+  Chunks chunks([&](std::string_view data) { zip.write(data); }, progress, steps);
+  written = ModelWriter(chunks, model).write();
   if (!written) return written;
   chunks.flush();
   written = zip.end();

@@ -17,8 +17,6 @@
 #include "argil/core/triangle_mesh.h"
 #include "argil/io/mesh_file.h"
 
-#include "file/file_bytes.h"
-
 namespace argil::io {
 
 /// Gathers small pieces of text or bytes and hands them on in large ones, asking now and then
@@ -97,7 +95,5 @@ Result<void> write_obj(Chunks& chunks, const TriangleMesh& mesh);
 Result<void> write_ply(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options);
 Result<void> write_stl(Chunks& chunks, const TriangleMesh& mesh);
 Result<void> write_glb(Chunks& chunks, const TriangleMesh& mesh, const WriteOptions& options);
-Result<void> write_3mf(OutputFile& out, const TriangleMesh& mesh, const WriteOptions& options,
-                       const Progress& progress);
 
 }  // namespace argil::io

@@ -5,17 +5,36 @@
 #include <vector>
 
 #include "argil/core/no_throw.h"
+#include "argil/io/assembly.h"
 #include "argil/io/safe_file.h"
 
 #include "file/file_bytes.h"
+#include "mesh_format/3mf_write.h"
 #include "mesh_format/mesh_frame_read.h"
 #include "mesh_format/mesh_write.h"
 
 namespace argil::io {
+namespace {
+
+template <class Write>
+Result<void> write_to(const std::filesystem::path& file, const Write& write) {
+  return replace_file(file, [&](const std::filesystem::path& temporary) -> Result<void> {
+    OutputFile out(temporary);
+    Result<void> written = write(out);
+    // Closed in any case: a full disk may show only now. The first failure is reported.
+    Result<void> closed = out.close();
+    return written ? closed : written;
+  });
+}
+
+}  // namespace
 
 Result<TriangleMesh> read_mesh(const std::filesystem::path& file) {
-  FrameReport report;
-  return read_in_frame(file, {}, report);
+  auto read = read_in_frame(file, {});
+  if (!read) return read.error();
+  return no_throw(file.string(), [&]() -> Result<TriangleMesh> {
+    return joined(std::move(read.value().assembly));
+  });
 }
 
 Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh_mm,
@@ -23,13 +42,28 @@ Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& m
   return no_throw(file.string(), [&]() -> Result<void> {
     const Result<MeshFormat> format = mesh_format_of(file);
     if (!format) return format.error();
-    return replace_file(file, [&](const std::filesystem::path& temporary) -> Result<void> {
-      OutputFile out(temporary);
-      Result<void> written = write_format(out, format.value(), mesh_mm, options, progress);
-      // Closed in any case: a full disk may show only now. The first failure is reported.
-      Result<void> closed = out.close();
-      return written ? closed : written;
+    return write_to(file, [&](OutputFile& out) {
+      return write_format(out, format.value(), mesh_mm, options, progress);
     });
+  });
+}
+
+Result<void> write_assembly(const std::filesystem::path& file, const Assembly& assembly,
+                            const Progress& progress) {
+  return no_throw(file.string(), [&]() -> Result<void> {
+    const Result<MeshFormat> format = mesh_format_of(file);
+    if (!format) return format.error();
+    if (format.value() != MeshFormat::threemf) {
+      return Error{ErrorKind::bad_input, file.string() +
+                                             ": the format has no place for parts of a name; "
+                                             "write a .3mf, or one mesh"};
+    }
+    ThreemfModel model{file.stem().string(), {}, {}, &assembly.items};
+    for (const AssemblyObject& object : assembly.objects) {
+      if (Result<void> fits = check_writable(object.mesh); !fits) return fits;
+      model.objects.push_back({object.name, object.color, &object.mesh});
+    }
+    return write_to(file, [&](OutputFile& out) { return write_3mf(out, model, progress); });
   });
 }
 

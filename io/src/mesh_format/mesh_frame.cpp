@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "argil/core/no_throw.h"
-#include "argil/mesh/compact.h"
+#include "argil/io/assembly.h"
 
 #include "file/file_bytes.h"
+#include "format/xml_text.h"
 #include "mesh_format/face_collector.h"
 #include "mesh_format/mesh_frame_read.h"
 #include "mesh_format/mesh_read.h"
@@ -50,6 +51,18 @@ bool is_gltf_text(const std::filesystem::path& file) {
   return ending == ".gltf";
 }
 
+Box3 bounds_of(const Assembly& assembly) {
+  Box3 box;
+  for (const AssemblyItem& item : assembly.items) {
+    for (const PlacedObject& placed : item.placements) {
+      const Box3 own = placed_bounds(assembly.objects[placed.object].mesh, placed.to_mm);
+      box.include(own.min);
+      box.include(own.max);
+    }
+  }
+  return box;
+}
+
 Result<MeshFormat> format_to_read(const std::filesystem::path& file) {
   if (is_gltf_text(file)) return MeshFormat::glb;
   return mesh_format_of(file);
@@ -76,20 +89,20 @@ void turn(TriangleMesh& mesh, UpAxis from) noexcept {
 
 class FrameReader {
  public:
-  FrameReader(const std::filesystem::path& file, const MeshFrame& wanted, FrameReport& report)
-      : file_(file), name_(file.string()), wanted_(wanted), report_(report) {}
+  FrameReader(const std::filesystem::path& file, const MeshFrame& wanted)
+      : file_(file), name_(file.string()), wanted_(wanted) {}
 
-  Result<TriangleMesh> read();
+  Result<ReadAssembly> read();
 
  private:
   Result<TriangleMesh> read_gltf(std::span<const std::byte> bytes);
-  Result<TriangleMesh> read_3mf(std::span<const std::byte> bytes);
+  Result<ReadAssembly> read_3mf(std::span<const std::byte> bytes);
   Result<TriangleMesh> read_unstated(MeshFormat format, std::span<const std::byte> bytes);
 
   const std::filesystem::path& file_;
   const std::string name_;
   const MeshFrame& wanted_;
-  FrameReport& report_;
+  FrameReport report_;
 };
 
 Result<TriangleMesh> FrameReader::read_gltf(std::span<const std::byte> bytes) {
@@ -106,14 +119,20 @@ Result<TriangleMesh> FrameReader::read_gltf(std::span<const std::byte> bytes) {
   return mesh;
 }
 
-Result<TriangleMesh> FrameReader::read_3mf(std::span<const std::byte> bytes) {
+Result<ReadAssembly> FrameReader::read_3mf(std::span<const std::byte> bytes) {
   StatedUnit unit;
   if (wanted_.unit) unit.instead_mm = length_mm(*wanted_.unit);
-  auto mesh = parse_3mf_in(bytes, name_, unit);
+  auto parsed = parse_3mf(bytes, name_, unit);
+  if (!parsed) return parsed.error();
   settle<LengthUnit>(wanted_.unit, unit_of(unit.mm), report_.unit, report_.unit_source);
   settle<UpAxis>(wanted_.up, UpAxis::z, report_.up, report_.up_source);
-  if (mesh && report_.up == UpAxis::y) turn(mesh.value(), UpAxis::y);
-  return mesh;
+  Assembly& assembly = parsed.value().assembly;
+  for (AssemblyItem& item : assembly.items) {
+    if (report_.up == UpAxis::z) break;
+    constexpr Affine kUpright{{Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}, Vec3{}}};
+    for (PlacedObject& placed : item.placements) placed.to_mm = placed.to_mm.then(kUpright);
+  }
+  return ReadAssembly{std::move(assembly), report_, std::move(parsed.value().notes)};
 }
 
 Result<TriangleMesh> FrameReader::read_unstated(MeshFormat format,
@@ -129,7 +148,7 @@ Result<TriangleMesh> FrameReader::read_unstated(MeshFormat format,
   return mesh;
 }
 
-Result<TriangleMesh> FrameReader::read() {
+Result<ReadAssembly> FrameReader::read() {
   const Result<MeshFormat> format = format_to_read(file_);
   if (!format) return format.error();
   const Result<UnwrittenBytes> bytes = read_file_bytes(file_);
@@ -137,17 +156,16 @@ Result<TriangleMesh> FrameReader::read() {
   if (bytes.value().empty()) {
     return Error{ErrorKind::bad_input, name_ + " is empty; export the mesh again"};
   }
-  switch (format.value()) {
-    case MeshFormat::obj:
-    case MeshFormat::stl:
-    case MeshFormat::ply:
-      return read_unstated(format.value(), bytes.value());
-    case MeshFormat::glb:
-      return read_gltf(bytes.value());
-    case MeshFormat::threemf:
-      break;
-  }
-  return read_3mf(bytes.value());
+  if (format.value() == MeshFormat::threemf) return read_3mf(bytes.value());
+  auto mesh = format.value() == MeshFormat::glb ? read_gltf(bytes.value())
+                                                : read_unstated(format.value(), bytes.value());
+  if (!mesh) return mesh.error();
+  ReadAssembly read;
+  read.frame = report_;
+  read.assembly.objects.push_back(
+      {plain_name(file_.stem().string(), Assembly::kLongestName), {}, std::move(mesh).value()});
+  read.assembly.items.push_back({"", {PlacedObject{}}});
+  return read;
 }
 
 /// Smaller than anything that is sculpted or printed, larger than any printer, and the least of
@@ -215,25 +233,32 @@ const char* unit_name(LengthUnit unit) noexcept {
   return kUnits[static_cast<std::size_t>(unit)].name;
 }
 
-Result<TriangleMesh> read_in_frame(const std::filesystem::path& file, const MeshFrame& wanted,
-                                   FrameReport& report) {
-  return no_throw(file.string(), [&] { return FrameReader(file, wanted, report).read(); });
+Result<ReadAssembly> read_in_frame(const std::filesystem::path& file, const MeshFrame& wanted) {
+  return no_throw(file.string(), [&] { return FrameReader(file, wanted).read(); });
 }
 
 Result<FramedMesh> read_framed_mesh(const std::filesystem::path& file, const MeshFrame& wanted) {
-  FramedMesh framed;
-  auto mesh = read_in_frame(file, wanted, framed.frame);
-  if (!mesh) return mesh.error();
-  framed.mesh = std::move(mesh).value();
-  const Box3 box = mesh::used_bounds(framed.mesh);
+  auto read = read_assembly(file, wanted);
+  if (!read) return read.error();
+  return no_throw(file.string(), [&]() -> Result<FramedMesh> {
+    return FramedMesh{joined(std::move(read.value().assembly)), read.value().frame};
+  });
+}
+
+Result<ReadAssembly> read_assembly(const std::filesystem::path& file, const MeshFrame& wanted) {
+  auto read = read_in_frame(file, wanted);
+  if (!read) return read;
+  const Assembly& assembly = read.value().assembly;
+  FrameReport& frame = read.value().frame;
+  const Box3 box = bounds_of(assembly);
   const Vec3 size = box.size();
-  FrameReport& frame = framed.frame;
   frame.largest_side_mm = std::max({size.x, size.y, size.z});
   frame.unit_looks_like = better_unit(frame, format_to_read(file).value());
-  if (frame.up_source == FrameSource::assumed && looks_turned(framed.mesh, box)) {
-    frame.up_looks_like = UpAxis::y;
-  }
-  return framed;
+  // Formats of several parts say which axis is up.
+  const bool may_be_turned =
+      frame.up_source == FrameSource::assumed && assembly.objects.size() == 1;
+  if (may_be_turned && looks_turned(assembly.objects[0].mesh, box)) frame.up_looks_like = UpAxis::y;
+  return read;
 }
 
 std::vector<std::string> frame_doubts(const std::filesystem::path& file, const FrameReport& frame) {

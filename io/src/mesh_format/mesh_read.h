@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
+#include "argil/io/assembly.h"
 
 #include "file/unwritten_bytes.h"
 
@@ -35,10 +37,13 @@ struct StatedUnit {
 Result<TriangleMesh> parse_obj(std::span<const std::byte> bytes, const std::string& name);
 Result<TriangleMesh> parse_stl(std::span<const std::byte> bytes, const std::string& name);
 Result<TriangleMesh> parse_ply(std::span<const std::byte> bytes, const std::string& name);
-/// Positions in mm: the unit of each model part is applied, and so are components and transforms.
-Result<TriangleMesh> parse_3mf(std::span<const std::byte> bytes, const std::string& name);
-/// The same; `unit` is that of the part the archive starts from.
-Result<TriangleMesh> parse_3mf_in(std::span<const std::byte> bytes, const std::string& name,
+/// Objects and places in mm: the unit of each model part is applied. `unit` is that of the part the
+/// archive starts from.
+struct ThreemfAssembly {
+  Assembly assembly;
+  std::vector<std::string> notes;  ///< as of ReadAssembly
+};
+Result<ThreemfAssembly> parse_3mf(std::span<const std::byte> bytes, const std::string& name,
                                   StatedUnit& unit);
 /// Positions in mm with z up: the file has metres and y up. Nodes are placed as it says, skins and
 /// shapes as they are at rest; vertices at one point are welded. Materials, lines and points are

@@ -20,10 +20,14 @@ enum class MeshFormat { obj, stl, ply, glb, threemf };
 /// Errors  bad_input naming the endings that are known.
 Result<MeshFormat> mesh_format_of(const std::filesystem::path& file);
 
+/// Whether any format can hold a mesh.
+/// Errors  bad_input for coordinates no float can hold, missing vertices, no or too many triangles.
+Result<void> check_writable(const TriangleMesh& mesh_mm);
+
 /// Writes `mesh_mm` to `out`, rounding to float on the way. The order of vertices and triangles is
 /// kept; the same mesh gives the same bytes.
-/// Errors  bad_input for coordinates no float can hold, missing vertices, or too many triangles for
-///         the format; interrupted. Disk errors stay in `out`.
+/// Errors  as check_writable; bad_input for what the format cannot hold; interrupted. Disk errors
+///         stay in `out`.
 Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
                           const WriteOptions& options, const Progress& progress);
 

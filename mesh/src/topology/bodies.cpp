@@ -68,18 +68,14 @@ bool Bodies::is_inside(std::uint32_t part, std::uint32_t shell) {
   return known->second.at(part_[part].vertex) > 0.5;
 }
 
-/// The smallest shell around it; itself where there is none, as in a mesh that is inside out.
+/// The smallest shell around it; itself where there is none, as for a part that is inside out.
 std::uint32_t Bodies::shell_around(std::uint32_t cavity) {
   std::vector<std::uint32_t> around;
   for (const std::uint32_t shell : shells_) {
     if (contains_box(part_[shell].box, part_[cavity].box)) around.push_back(shell);
   }
-  // Some shell is around it, so that the last one left need not be asked.
   // From the smallest: the first that holds the cavity is the one around it.
-  while (around.size() > 1) {
-    if (is_inside(cavity, around.back())) break;
-    around.pop_back();
-  }
+  while (!around.empty() && !is_inside(cavity, around.back())) around.pop_back();
   return around.empty() ? cavity : around.back();
 }
 

@@ -78,7 +78,7 @@ TEST(ImportComparison, FindsNothingAmissInHonestClay) {
     EXPECT_FALSE(found.has_inner_walls);
     EXPECT_EQ(found.bodies, bodies);
     EXPECT_EQ(found.given_bodies, bodies);
-    EXPECT_FALSE(found.merged);
+    EXPECT_TRUE(found.fused.empty());
   }
 }
 
@@ -90,8 +90,10 @@ TEST(ImportComparison, SeesAGapThatNoNodeHit) {
   EXPECT_NEAR(found.filled.at_mm.x, 0.25, 0.051);
   EXPECT_EQ(found.bodies, 1);
   EXPECT_EQ(found.given_bodies, 2);
-  ASSERT_TRUE(found.merged);
-  EXPECT_NEAR(found.merged->distance_mm, kGapMm, 0.01);
+  ASSERT_EQ(found.fused.size(), 1U);
+  EXPECT_NEAR(found.fused[0].gap_mm, kGapMm, 1e-6);
+  EXPECT_NEAR(found.fused[0].at_mm.x, 0.25, 1e-6);
+  EXPECT_EQ(found.part_names, (std::vector<std::string>{"body 1", "body 2"}));
   EXPECT_FALSE(found.has_inner_walls);
 }
 
@@ -100,8 +102,8 @@ TEST(ImportComparison, SeesBodiesThatMergedAcrossAGapFullOfHoles) {
   const ImportComparison found = imported_and_compared(askew(two_boxes(0.2)), 0.3);
   EXPECT_EQ(found.bodies, 1);
   EXPECT_EQ(found.given_bodies, 2);
-  ASSERT_TRUE(found.merged);
-  EXPECT_NEAR(found.merged->distance_mm, 0.2, 0.02);
+  ASSERT_EQ(found.fused.size(), 1U);
+  EXPECT_NEAR(found.fused[0].gap_mm, 0.2, 1e-6);
 }
 
 TEST(ImportComparison, TakesPartsThatOverlapForOneBody) {
@@ -111,7 +113,7 @@ TEST(ImportComparison, TakesPartsThatOverlapForOneBody) {
   EXPECT_LE(found.filled.distance_mm, ImportComparison::kMostVoxelsOff * 0.25);
   EXPECT_EQ(found.bodies, 1);
   EXPECT_EQ(found.given_bodies, 2);
-  EXPECT_FALSE(found.merged);
+  EXPECT_TRUE(found.fused.empty());
 }
 
 /// So little that no point that is looked at lies within both.
@@ -120,7 +122,7 @@ TEST(ImportComparison, TakesPartsThatHardlyOverlapForOneBodyToo) {
   const ImportComparison found = imported_and_compared(mesh, 0.5);
   EXPECT_EQ(found.bodies, 1);
   EXPECT_EQ(found.given_bodies, 2);
-  EXPECT_FALSE(found.merged);
+  EXPECT_TRUE(found.fused.empty());
 }
 
 TEST(ImportComparison, SaysHowMuchIsLostWhereNothingIsLeft) {

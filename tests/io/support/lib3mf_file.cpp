@@ -2,6 +2,7 @@
 #include "io/support/lib3mf_file.h"
 
 #include <array>
+#include <cstdio>
 
 #include "io/support/lib3mf_handle.h"
 
@@ -48,6 +49,7 @@ class Reader {
   bool take_metadata();
   bool take_meshes();
   bool take_mesh(PLib3MFModelMeshObject* mesh);
+  std::string color_of(PLib3MFModelMeshObject* mesh);
   bool take_components();
   bool take_items();
 
@@ -72,6 +74,26 @@ bool Reader::take_metadata() {
   return true;
 }
 
+std::string Reader::color_of(PLib3MFModelMeshObject* mesh) {
+  Lib3mfHandle<PLib3MFDefaultPropertyHandler> property;
+  Lib3mfHandle<PLib3MFModelBaseMaterial> group;
+  DWORD id = 0;
+  DWORD index = 0;
+  BYTE red = 0;
+  BYTE green = 0;
+  BYTE blue = 0;
+  BYTE alpha = 0;
+  if (!done(lib3mf_object_createdefaultpropertyhandler(mesh, property.out())) ||
+      !done(lib3mf_defaultpropertyhandler_getbasematerial(property, &id, &index)) ||
+      !done(lib3mf_model_getbasematerialbyid(model_, id, group.out())) ||
+      !done(lib3mf_basematerial_getdisplaycolor(group, index, &red, &green, &blue, &alpha))) {
+    return "";
+  }
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02X%02X%02X", red, green, blue);
+  return text.data();
+}
+
 bool Reader::take_mesh(PLib3MFModelMeshObject* mesh) {
   std::array<char, 256> name{};
   ULONG needed = 0;
@@ -84,7 +106,7 @@ bool Reader::take_mesh(PLib3MFModelMeshObject* mesh) {
       !done(lib3mf_meshobject_ismanifoldandoriented(mesh, &manifold))) {
     return false;
   }
-  Lib3mfObject object{name.data(), vertices, triangles, manifold != 0, {}};
+  Lib3mfObject object{name.data(), vertices, triangles, manifold != 0, {}, color_of(mesh)};
   std::vector<MODELMESHVERTEX> places(vertices);
   if (!done(lib3mf_meshobject_getvertices(mesh, places.data(), vertices, nullptr))) return false;
   for (const MODELMESHVERTEX& at : places) {
@@ -150,6 +172,17 @@ Lib3mfFile lib3mf_file(const std::filesystem::path& threemf) {
   Lib3mfFile file;
   file.is_read = Reader(file).run(threemf);
   return file;
+}
+
+bool rewrite_by_lib3mf(const std::filesystem::path& from, const std::filesystem::path& to) {
+  Lib3mfHandle<PLib3MFModel> model;
+  Lib3mfHandle<PLib3MFModelReader> reader;
+  Lib3mfHandle<PLib3MFModelWriter> writer;
+  return lib3mf_createmodel(model.out()) == 0U &&
+         lib3mf_model_queryreader(model, "3mf", reader.out()) == 0U &&
+         lib3mf_reader_readfromfileutf8(reader, from.c_str()) == 0U &&
+         lib3mf_model_querywriter(model, "3mf", writer.out()) == 0U &&
+         lib3mf_writer_writetofileutf8(writer, to.c_str()) == 0U;
 }
 
 }  // namespace argil::test

@@ -18,6 +18,7 @@ struct Lib3mfObject {
   std::int64_t triangles = 0;
   bool manifold = false;  ///< and oriented
   Box3 box_mm;            ///< by the unit that the file states
+  std::string color;      ///< "#RRGGBB" of its base material; empty for none
 };
 
 struct Lib3mfFile {
@@ -29,5 +30,8 @@ struct Lib3mfFile {
   bool moves = false;  ///< an item of the build has a transform
 };
 Lib3mfFile lib3mf_file(const std::filesystem::path& threemf);
+
+/// Has the library read one file and write what it read as another; whether it could.
+bool rewrite_by_lib3mf(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace argil::test

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
 #include "argil/io/prepared_mesh.h"
+#include "argil/mesh/part_gaps.h"
 
 namespace argil::io {
 
@@ -40,17 +43,22 @@ struct ImportComparison {
   bool has_inner_walls = false;              ///< parts overlap or touch: their volumes count twice
   std::int64_t bodies = 0;                   ///< of the clay; specks below a voxel are none
   std::optional<std::int64_t> given_bodies;  ///< of the mesh, where it is closed
-  /// Where two bodies of the mesh come nearest and how near, of those that were looked at, when the
-  /// clay has fewer and the mesh joins none itself.
-  std::optional<MeasuredPoint> merged;
+  /// Pairs of parts that are one body in the clay, and where they come nearest: less than two
+  /// voxels apart. The nearest first. Parts are those that the file names, and pairs of them that
+  /// touch or overlap are fused too; else the bodies of the mesh, which join where they do so on
+  /// purpose.
+  std::vector<mesh::PartGap> fused;
+  std::vector<std::string> part_names;  ///< of the parts that `fused` numbers; empty where none is
 };
 
-/// Compares volumes, boxes, bodies and some 2000 triangles of each surface with the other.
+/// Compares volumes, boxes, bodies, parts and some 2000 triangles of each surface with the other.
 ///
 /// Shapes   `surface` is extract_surface of the clay; `is_bridged` as ImportReport has it.
 /// Errors   memory.
 /// Threads  as Clay. Same numbers for any number of threads.
-/// Cost     under a twentieth of the import: a tree over the mesh; more where something is amiss.
+/// Cost     under a twentieth of the import: a tree over the mesh; more where something is amiss,
+/// as
+///          part_gaps has it where parts are one in the clay.
 Result<ImportComparison> compare_import(const PreparedMesh& prepared, const Clay& clay,
                                         const TriangleMesh& surface, bool is_bridged);
 

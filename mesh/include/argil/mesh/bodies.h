@@ -9,7 +9,7 @@
 
 namespace argil::mesh {
 
-/// The bodies of a closed mesh that faces outward: each an outer shell with the cavities in it,
+/// The bodies of a closed mesh: each an outer shell with the cavities in it,
 /// but not what lies loose in a cavity.
 struct MeshBodies {
   std::vector<std::uint32_t> of_triangle;  ///< body of each triangle
@@ -18,11 +18,13 @@ struct MeshBodies {
 
 /// Which body each triangle belongs to.
 ///
-/// Shapes       closed, finite; no triangle names a vertex twice. In a mesh that is inside out
-///              every component is a body of its own. No triangles: no bodies.
+/// Shapes       closed, finite; no triangle names a vertex twice. A component that is inside out
+/// and
+///              in no shell is a body of its own. No triangles: no bodies.
 /// Determinism  same numbers every time.
 /// Threads      any thread.
-/// Cost         linear; where a cavity may be in several shells also a winding number tree of each.
+/// Cost         linear; where there are cavities also a winding number tree of the shells whose
+///              boxes hold one.
 MeshBodies mesh_bodies(const TriangleMesh& mesh);
 
 /// One mesh for each number, of its triangles in their order with their own vertices.
