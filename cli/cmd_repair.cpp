@@ -40,6 +40,7 @@ Json repair_json(const io::RepairReport& report) {
   json["thickened_sheets"] = report.thickened_sheets;
   json["coned_holes"] = report.coned_holes;
   json["dropped_sheets"] = report.dropped_sheets;
+  json["dropped_crumbs"] = report.dropped_crumbs;
   json["parted_vertices"] = report.parted_vertices;
   json["gap_mm"] = report.gap_mm;
   json["united_parts"] = report.united_parts;
@@ -51,13 +52,20 @@ Json repair_json(const io::RepairReport& report) {
   json["max_change_slack_mm"] = report.max_change_slack_mm;
   json["given_size_mm"] = to_json(report.given_size_mm);
   json["given_volume_mm3"] = report.given_volume_mm3 ? Json(*report.given_volume_mm3) : Json();
+  const auto places = [](const std::vector<io::RepairPlace>& all) {
+    Json array = Json::array();
+    for (const io::RepairPlace& place : all) {
+      array.push_back({{"at_mm", to_json(place.at_mm)}, {"distance_mm", place.distance_mm}});
+    }
+    return array;
+  };
   json["lost"] = {{"too_much", report.lost_too_much()}, {"share", report.loss.share},
                   {"parts", report.loss.parts},         {"tolerance_mm", report.loss.tolerance_mm},
-                  {"samples", report.loss.samples},     {"places", Json::array()}};
-  for (const io::LostPlace& place : report.loss.places) {
-    json["lost"]["places"].push_back(
-        {{"at_mm", to_json(place.at_mm)}, {"distance_mm", place.distance_mm}});
-  }
+                  {"samples", report.loss.samples},     {"places", places(report.loss.places)}};
+  json["guessed"] = {{"too_much", report.guessed_too_much()},
+                     {"share", report.guess.share},
+                     {"tolerance_mm", report.guess.tolerance_mm},
+                     {"places", places(report.guess.places)}};
   return json;
 }
 
@@ -77,6 +85,7 @@ std::string repair_changes(const io::RepairReport& report) {
   say(report.closing.holes_closed, "holes closed");
   say(report.coned_holes, "of them by cones, since they touched or crossed others");
   say(report.dropped_sheets, "open sheets dropped beside the solids; --thicken keeps them");
+  say(report.dropped_crumbs, "flat crumbs dropped that mending cut off");
   say(report.thickened_sheets, "open sheets given a thickness");
   say(report.crossings, "pairs of triangles that crossed");
   say(report.united_parts, "parts united with those they overlapped");
@@ -93,7 +102,16 @@ std::string repair_changes(const io::RepairReport& report) {
   return text;
 }
 
-/// What is gone and where, or nothing.
+std::string places_text(const std::vector<io::RepairPlace>& places) {
+  std::string text;
+  for (const io::RepairPlace& place : places) {
+    text += "  at " + number(place.at_mm.x) + ", " + number(place.at_mm.y) + ", " +
+            number(place.at_mm.z) + ": " + number(place.distance_mm) + " mm off\n";
+  }
+  return text;
+}
+
+/// What is gone or guessed and where, or nothing.
 std::string loss_text(const io::RepairReport& report) {
   std::string text;
   const io::RepairLoss& loss = report.loss;
@@ -102,15 +120,18 @@ std::string loss_text(const io::RepairReport& report) {
     text += "lost: " + number(100.0 * loss.share) + " % of the surface is farther than " +
             number(loss.tolerance_mm) + " mm from the result and outside it\n";
   }
-  for (const io::LostPlace& place : loss.places) {
-    text += "  at " + number(place.at_mm.x) + ", " + number(place.at_mm.y) + ", " +
-            number(place.at_mm.z) + ": " + number(place.distance_mm) + " mm off\n";
+  text += places_text(loss.places);
+  if (report.guessed_too_much()) {
+    text += "guessed: " + number(100.0 * report.guess.share) +
+            " % of the new surface is farther than " + number(report.guess.tolerance_mm) +
+            " mm from what was given, which tells of no surface there\n" +
+            places_text(report.guess.places);
   }
   if (report.lost_too_much() && report.given_volume_mm3) {
     text += "volume: " + number(*report.given_volume_mm3) + " mm3 before, " +
             number(report.verdict.volume_mm3) + " mm3 now\n";
   }
-  if (!report.lost_too_much()) return text;
+  if (!report.lost_too_much() && !report.guessed_too_much()) return text;
   text += report.path == io::RepairPath::field
               ? "look there; a smaller --voxel-mm may keep more, --allow-loss accepts it\n"
               : "look there; --allow-loss accepts it\n";
@@ -140,7 +161,7 @@ Result<Outcome> run_repair(const RepairCommand& command, const Progress& progres
   outcome.text = repair_changes(report) + loss_text(report) + verdict_text(report.verdict) +
                  "saved '" + command.output.string() + "' in " + number(watch.seconds()) + " s\n";
   // The file is written in any case; 1 says that it is not printable or not what it was.
-  const bool is_kept = command.allow_loss || !report.lost_too_much();
+  const bool is_kept = command.allow_loss || !(report.lost_too_much() || report.guessed_too_much());
   outcome.status = report.verdict.printable && is_kept ? 0 : 1;
   return outcome;
 }

@@ -11,8 +11,11 @@
 #include "argil/io/mesh_file.h"
 
 #include "arena/arena.h"
+#include "arena/child.h"
 #include "arena/contestants.h"
+#include "arena/picture.h"
 #include "arena/slice/slice.h"
+#include "support/scratch.h"
 
 namespace argil::arena {
 namespace {
@@ -29,7 +32,8 @@ constexpr const char* kUsage =
     "  --jobs N            runs at a time (2)\n"
     "  --keep-failed DIR   writes what argil failed at there\n"
     "  --write DIR         writes all meshes there, runs nothing\n"
-    "  --out NAME          writes NAME.csv and NAME.txt, and each run at once to NAME.part.csv\n";
+    "  --out NAME          writes NAME.csv, .txt, .gp and .svg, and each run at once to "
+    "NAME.part.csv\n";
 
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
@@ -76,6 +80,18 @@ void tell(const std::string& out, const std::string& table, const std::string& c
   std::ofstream(out + ".txt") << table;
 }
 
+void draw(const std::filesystem::path& out, const std::vector<Row>& rows) {
+  constexpr double kPatienceToDrawS = 60.0;
+  const test::ScratchFolder scratch;
+  const std::filesystem::path folder = std::filesystem::absolute(out).parent_path();
+  const std::string name = out.filename().string();
+  std::ofstream(out.string() + ".gp") << picture_script(rows, name);
+  const ChildEnd end = run_child(
+      scratch.path(), {"gnuplot", "-e", "cd '" + folder.string() + "'; load '" + name + ".gp'"},
+      kPatienceToDrawS);
+  if (end.status != 0) std::cerr << "no picture: gnuplot: " << end.err << '\n';
+}
+
 int run_slice(const ArenaOptions& options, const std::string& out) {
   const std::vector<PrintPiece> pieces = print_pieces();
   if (!options.write_to.empty()) {
@@ -113,6 +129,7 @@ int run(const std::vector<std::string>& words) {
   const auto done = [&](const Row& row) { so_far << csv_line(row) << std::flush; };
   const std::vector<Row> rows = run_arena(meshes, options, say, done);
   tell(out, table_of(rows), csv_of(rows));
+  if (!out.empty()) draw(out, rows);
   return 0;
 }
 
