@@ -19,9 +19,11 @@
 #include "argil/mesh/point_welder.h"
 #include "argil/mesh/triangle_geometry.h"
 
+#include "repair/close_soup.h"
 #include "repair/hole_fill.h"
 #include "repair/library_call.h"
 #include "repair/orient.h"
+#include "repair/rim_bands.h"
 #include "repair/seams.h"
 
 namespace argil::mesh {
@@ -193,7 +195,7 @@ std::vector<double> part_areas(const TriangleMesh& mesh, const MeshParts& parts)
   return areas;
 }
 
-/// Adds the patches that do not give an edge a third triangle; the number of those added.
+/// Adds the patches that do not give an edge a third triangle; how many holes these close.
 std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches) {
   TriangleMesh filled = mesh;
   std::vector<std::size_t> patch_of(mesh.triangles.size(), patches.size());
@@ -218,27 +220,38 @@ std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches
   }
   if (std::find(sound.begin(), sound.end() - 1, false) == sound.end() - 1) {
     mesh = std::move(filled);
-    return static_cast<std::int64_t>(patches.size());
+    return std::accumulate(
+        patches.begin(), patches.end(), std::int64_t{0},
+        [](std::int64_t sum, const HolePatch& patch) { return sum + patch.holes; });
   }
   TriangleMesh some = mesh;
   std::int64_t added = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!sound[i]) continue;
     append(patches[i], i, some);
-    ++added;
+    added += patches[i].holes;
   }
   mesh = std::move(some);
   return added;
 }
 
-void fill_holes(TriangleMesh& mesh, const MeshParts& parts, CloseReport& report) {
+void fill_holes(TriangleMesh& mesh, const MeshParts& parts, bool joins_rims, CloseReport& report) {
   const EdgeTable edges(mesh);
   const Rims rims = find_rims(mesh, edges);
   std::vector<HolePatch> patches;
   if (!rims.loops.empty()) {
     const std::vector<double> areas = part_areas(mesh, parts);
     HoleFiller filler(mesh, edges);
-    for (const std::vector<HalfEdge>& loop : rims.loops) {
+    std::vector<bool> is_joined(rims.loops.size(), false);
+    if (joins_rims) {
+      for (const auto& [a, b] : loops_beside(mesh, edges, parts, rims.loops)) {
+        is_joined[a] = is_joined[b] = true;
+        patches.push_back({{}, band_between(mesh, edges, rims.loops[a], rims.loops[b]), 2});
+      }
+    }
+    for (std::size_t n = 0; n < rims.loops.size(); ++n) {
+      if (is_joined[n]) continue;
+      const RimLoop& loop = rims.loops[n];
       const double part_area = areas[parts.of_triangle[triangle_of(loop[0])]];
       const double area = loop_area(mesh, edges, loop);
       if (area >= kLargestHole * part_area) continue;
@@ -443,7 +456,9 @@ void drop_flat(ClosedMesh& closed) {
   });
 }
 
-Result<ClosedMesh> close(const TriangleMesh& input) {
+}  // namespace
+
+Result<ClosedMesh> close_soup(const TriangleMesh& input, bool joins_rims) {
   ClosedMesh result;
   CloseReport& report = result.report;
   TriangleMesh& mesh = result.mesh;
@@ -457,7 +472,7 @@ Result<ClosedMesh> close(const TriangleMesh& input) {
     const MeshParts parts = mesh_parts(mesh, edges, true);
     report.turned_triangles = orient_alike(mesh, edges, parts);
     result.given_triangles = mesh.triangles.size();
-    fill_holes(mesh, parts, report);
+    fill_holes(mesh, parts, joins_rims, report);
   }
   turn_outward(mesh, report);
   report.closed = !mesh.triangles.empty() && balanced(mesh);
@@ -469,10 +484,8 @@ Result<ClosedMesh> close(const TriangleMesh& input) {
   return result;
 }
 
-}  // namespace
-
 Result<ClosedMesh> close_mesh(const TriangleMesh& mesh) {
-  return no_throw("closing the mesh", [&] { return close(mesh); });
+  return no_throw("closing the mesh", [&] { return close_soup(mesh, false); });
 }
 
 }  // namespace argil::mesh

@@ -19,6 +19,7 @@
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
 
+#include "repair/close_soup.h"
 #include "repair/crumbs.h"
 #include "repair/inner_walls.h"
 #include "repair/library_call.h"
@@ -121,7 +122,7 @@ bool Mend::cone_the_rest() {
 
 /// The first closing is the one that is reported; a later one closes what was opened meanwhile.
 Result<void> Mend::close() {
-  auto closed = close_mesh(mesh_);
+  auto closed = close_soup(mesh_, true);
   if (!closed) return closed.error();
   if (report_.closing.parts == 0) {
     closed.value().report.dropped_triangles += report_.closing.dropped_triangles;
