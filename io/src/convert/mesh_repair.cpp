@@ -51,6 +51,9 @@ class Repair {
   Result<RepairedMesh> run();
 
  private:
+  std::int64_t given_holes() const {
+    return report_.closing.holes_left + report_.closing.holes_closed - report_.coned_holes;
+  }
   double voxel_mm(const TriangleMesh& from) const;
   Result<void> rebuild(const TriangleMesh& from);
   Result<void> rebuild_what_was_lost();
@@ -74,7 +77,7 @@ double Repair::voxel_mm(const TriangleMesh& from) const {
   const double largest = std::max({sides.x, sides.y, sides.z});
   // Each of the nodes beside triangles that do not meet asks all of them which side it is on.
   const mesh::CloseReport& closing = report_.closing;
-  const std::int64_t holes = closing.holes_left + (&from == &facing_ ? closing.holes_closed : 0);
+  const std::int64_t holes = &from == &facing_ ? given_holes() : closing.holes_left;
   const double share = holes > kManyHoles  ? kShareWithGaps
                        : &from == &facing_ ? kShareWithRims
                                            : 1.0;
@@ -172,8 +175,13 @@ void Repair::measure_change(const Pace& pace) {
   report_.max_change_mm = change.at_most_mm;
   report_.max_change_slack_mm = change.at_most_mm - change.at_least_mm;
   const double tolerance = std::max(kTolerance * side, kVoxels * report_.voxel_mm);
+  // Whoever chooses a voxel is content with the edges that it leaves. Else those of a level set
+  // count a little earlier, since what was given may be off itself.
+  constexpr double kOfField = 0.8;
+  const double usual = kTolerance * side * (report_.path == RepairPath::field ? kOfField : 1.0);
+  const double least_loss = options_.voxel_mm > 0.0 ? tolerance : usual;
   report_.loss =
-      measure_loss(input_, found_in(mesh_, input_, true), mesh_, tolerance, pace.part(0.4, 0.7));
+      measure_loss(input_, found_in(mesh_, input_, true), mesh_, least_loss, pace.part(0.4, 0.7));
   report_.guess = measure_guess(facing_, mesh_, is_old, tolerance, true, pace.part(0.7, 0.9));
   is_contradicted_ = report_.guessed_too_much();
   const double farthest = RepairLoss::kMostTolerances * tolerance;
@@ -211,7 +219,7 @@ void Repair::compare(const Pace& pace) {
 Result<void> Repair::rebuild_what_was_lost() {
   TriangleMesh mended = mesh_;
   const RepairReport mended_report = report_;
-  const TriangleMesh& from = is_contradicted_ ? facing_ : input_;
+  const TriangleMesh& from = is_contradicted_ && given_holes() <= kManyHoles ? facing_ : input_;
   if (auto made = rebuild(from); !made) {
     if (made.error().kind == ErrorKind::interrupted) return made.error();
     mesh_ = std::move(mended);
@@ -239,7 +247,9 @@ Result<RepairedMesh> Repair::run() {
   }
   compare(Pace(progress_, "compare"));
   const bool is_coned = report_.coned_holes > 0 && report_.path == RepairPath::local;
-  if (is_contradicted_ || (is_coned && report_.lost_too_much())) {
+  // With more holes a level set of what was given takes as long as all else together.
+  const bool can_ask_given = is_contradicted_ && given_holes() <= kManyHoles;
+  if (can_ask_given || (is_coned && report_.lost_too_much())) {
     if (auto tried = rebuild_what_was_lost(); !tried) return tried.error();
   }
   return RepairedMesh{std::move(mesh_), std::move(report_)};
@@ -251,8 +261,10 @@ bool RepairReport::lost_too_much() const noexcept {
   const bool lost_volume =
       given_volume_mm3 && std::abs(verdict.volume_mm3 - *given_volume_mm3) >
                               RepairLoss::kMostShare * std::abs(*given_volume_mm3);
-  const bool is_deep = !loss.places.empty() && loss.places.front().distance_mm >
-                                                   RepairLoss::kMostTolerances * loss.tolerance_mm;
+  // Of a level set nothing is as it was: all that it lost beyond the tolerance counts.
+  const double deep_tolerances = path == RepairPath::field ? 1.0 : RepairLoss::kMostTolerances;
+  const bool is_deep =
+      !loss.places.empty() && loss.places.front().distance_mm > deep_tolerances * loss.tolerance_mm;
   return loss.parts > 0 || loss.share > RepairLoss::kMostShare || is_deep || lost_volume;
 }
 

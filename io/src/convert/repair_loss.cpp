@@ -182,7 +182,7 @@ AtTriangle GuessSampling::look_at(std::size_t t, bool is_given) const {
 template <class LookAt>
 std::vector<AtTriangle> at_all(const TriangleMesh& mesh, double step_mm, const Pace& pace,
                                const LookAt& look_at) {
-  constexpr std::int64_t kAtATime = 1 << 16;
+  constexpr std::int64_t kAtATime = 1 << 14;
   const std::size_t count = mesh.triangles.size();
   std::vector<AtTriangle> found(count);
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {

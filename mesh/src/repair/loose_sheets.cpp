@@ -143,7 +143,10 @@ std::int64_t drop_loose_sheets(TriangleMesh& mesh, const Pace& pace) {
   }
   const auto is_sheet = [](const OpenPart& part) { return part.is_sheet(); };
   const std::int64_t sheets = std::count_if(open.begin(), open.end(), is_sheet);
-  const bool is_soup = sheets > kFewSheets && sheet_area > kMostOfArea * all_area;
+  const bool has_open_body = std::any_of(open.begin(), open.end(), [](const OpenPart& part) {
+    return !part.is_sheet() && !part.rim.empty();
+  });
+  const bool is_soup = sheets > kFewSheets && has_open_body && sheet_area > kMostOfArea * all_area;
   if (sheets == 0 || sheets == std::ssize(open) || is_soup) return 0;
   const OtherParts others(mesh, parts);
   std::vector<bool> goes(parts.count, false);

@@ -47,16 +47,29 @@ RepairGuess guess_of_closing(const TriangleMesh& open) {
   return measure_guess(facing, closed.mesh, is_given, 0.1, true, Pace(kNobody, ""));
 }
 
-TEST(RepairGuess, ALidOnHalfABallIsNone) {
-  EXPECT_TRUE(guess_of_closing(half_ball(true)).places.empty());
+/// A box without one of its sides, at z = 0.
+TriangleMesh open_box(bool is_upper) {
+  const double middle = is_upper ? 5.0 : -5.0;
+  const TriangleMesh box = test::box_mesh({10, 10, 10}, {0, 0, middle});
+  return mesh::only_triangles(box, [&](std::size_t t) {
+    const mesh::Corners corners = mesh::corners_of(box, t);
+    return mesh::middle(corners).z != 0.0;
+  });
+}
+
+TEST(RepairGuess, ALidOnAnOpenBoxIsNone) {
+  EXPECT_TRUE(guess_of_closing(open_box(true)).places.empty());
+  EXPECT_TRUE(guess_of_closing(half_ball(true)).share < 0.01);
 }
 
 TEST(RepairGuess, LidsBetweenTwoHalvesAreAndHavePlaces) {
-  const RepairGuess guess = guess_of_closing(cracked_ball(0.08));
-  EXPECT_GT(guess.share, 0.2);
+  TriangleMesh upper = open_box(true);
+  for (Vec3& p : upper.positions) p.z += 0.5;
+  const RepairGuess guess = guess_of_closing(test::joined(open_box(false), upper));
+  EXPECT_GT(guess.share, 0.1);
   ASSERT_FALSE(guess.places.empty());
   EXPECT_LE(guess.places.size(), 10U);
-  EXPECT_NEAR(guess.places.front().distance_mm, 10.0, 1.0);
+  EXPECT_NEAR(guess.places.front().distance_mm, 5.0, 0.3);
   EXPECT_LE(length(guess.places.front().at_mm), 1.0);
 }
 

@@ -73,7 +73,7 @@ struct RepairReport : mesh::MendReport {
   std::optional<double> given_volume_mm3;
 
   /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone,
-  /// or any place is farther off than RepairLoss::kMostTolerances.
+  /// or any place is farther off than RepairLoss::kMostTolerances, through a level set than one.
   bool lost_too_much() const noexcept;
   /// Whether there is any such place.
   bool guessed_too_much() const noexcept { return !guess.places.empty(); }
