@@ -32,6 +32,7 @@ constexpr const char* kUsage =
     "  --jobs N            runs at a time (2)\n"
     "  --keep-failed DIR   writes what argil failed at there\n"
     "  --write DIR         writes all meshes there, runs nothing\n"
+    "  --rows A.csv,B.csv  makes the table and picture of these rows, runs nothing\n"
     "  --out NAME          writes NAME.csv, .txt, .gp and .svg, and each run at once to "
     "NAME.part.csv\n";
 
@@ -65,6 +66,8 @@ bool set_option(ArenaOptions& options, std::string& out, const std::string& name
   } else if (name == "--write") {
     options.write_to = value;
     std::filesystem::create_directories(value);
+  } else if (name == "--rows") {
+    options.rows = words_of(value);
   } else if (name == "--out") {
     out = value;
   } else {
@@ -116,6 +119,14 @@ int run(const std::vector<std::string>& words) {
     return 2;
   }
   if (is_slice) return run_slice(options, out);
+  if (!options.rows.empty()) {
+    std::string csv;
+    for (const std::string& file : options.rows) csv += test::content_of(file);
+    const std::vector<Row> rows = rows_of(csv);
+    std::cout << table_of(rows);
+    if (!out.empty()) draw(out, rows);
+    return 0;
+  }
   const Say say = [](const std::string& line) { std::cerr << line << std::endl; };
   const std::vector<Broken> meshes = broken_meshes(options, say);
   say(std::to_string(meshes.size()) + " meshes");

@@ -214,11 +214,20 @@ void Repair::compare(const Pace& pace) {
   note_given_volume();
 }
 
+double farthest_place_mm(const RepairReport& report) {
+  double farthest = 0.0;
+  for (const auto* places : {&report.loss.places, &report.guess.places}) {
+    if (!places->empty()) farthest = std::max(farthest, places->front().distance_mm);
+  }
+  return farthest;
+}
+
 /// Where mending lost or guessed something, a level set may do better: it tells the inside of
 /// triangles that close nothing.
 Result<void> Repair::rebuild_what_was_lost() {
   TriangleMesh mended = mesh_;
   const RepairReport mended_report = report_;
+  const bool was_contradicted = is_contradicted_;
   const TriangleMesh& from = is_contradicted_ && given_holes() <= kManyHoles ? facing_ : input_;
   if (auto made = rebuild(from); !made) {
     if (made.error().kind == ErrorKind::interrupted) return made.error();
@@ -227,7 +236,10 @@ Result<void> Repair::rebuild_what_was_lost() {
     return {};
   }
   compare(Pace(progress_, "compare"));
-  if (!report_.verdict.printable || report_.lost_too_much() || report_.guessed_too_much()) {
+  const bool is_doubtful = report_.lost_too_much() || report_.guessed_too_much();
+  const bool is_better = !is_doubtful || (was_contradicted && farthest_place_mm(report_) <
+                                                                  farthest_place_mm(mended_report));
+  if (!report_.verdict.printable || !is_better) {
     mesh_ = std::move(mended);
     report_ = mended_report;
   }

@@ -24,8 +24,7 @@ RepairLoss measure_loss(const TriangleMesh& given, const std::vector<bool>& is_k
 /// that does not tell of a surface there: `facing`, the given triangles turned as the result's,
 /// winds around it by less than 1/4 or more than 3/4. A lid on an opening has 1/2; one within what
 /// halves enclose together 1, and one over a hollow outside 0. Without `may_close` the distance
-/// alone counts. `is_given` says of which triangles
-/// of the result it need not be asked.
+/// alone counts. `is_given` says of which triangles of the result it need not be asked.
 ///
 /// Errors, determinism, threads and cost as measure_loss.
 RepairGuess measure_guess(const TriangleMesh& facing, const TriangleMesh& result,
