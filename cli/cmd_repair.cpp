@@ -59,9 +59,10 @@ Json repair_json(const io::RepairReport& report) {
     }
     return array;
   };
-  json["lost"] = {{"too_much", report.lost_too_much()}, {"share", report.loss.share},
-                  {"parts", report.loss.parts},         {"tolerance_mm", report.loss.tolerance_mm},
-                  {"samples", report.loss.samples},     {"places", places(report.loss.places)}};
+  json["lost"] = {{"too_much", report.lost_too_much()},  {"share", report.loss.share},
+                  {"parts", report.loss.parts},          {"tolerance_mm", report.loss.tolerance_mm},
+                  {"samples", report.loss.samples},      {"covered_mm3", report.loss.covered_mm3},
+                  {"places", places(report.loss.places)}};
   json["guessed"] = {{"too_much", report.guessed_too_much()},
                      {"share", report.guess.share},
                      {"tolerance_mm", report.guess.tolerance_mm},
@@ -116,9 +117,13 @@ std::string loss_text(const io::RepairReport& report) {
   std::string text;
   const io::RepairLoss& loss = report.loss;
   if (loss.parts > 0) text += "lost: " + grouped(loss.parts) + " whole parts\n";
-  if (!loss.places.empty()) {
+  if (loss.share > 0.0) {
     text += "lost: " + number(100.0 * loss.share) + " % of the surface is farther than " +
             number(loss.tolerance_mm) + " mm from the result and outside it\n";
+  }
+  if (report.covered_too_much()) {
+    text += "covered: " + number(loss.covered_mm3) +
+            " mm3 lie between surfaces of which the outer one was taken\n";
   }
   text += places_text(loss.places);
   if (report.guessed_too_much()) {

@@ -269,6 +269,10 @@ Result<RepairedMesh> Repair::run() {
 
 }  // namespace
 
+bool RepairReport::covered_too_much() const noexcept {
+  return loss.covered_mm3 > RepairLoss::kMostShare * std::abs(verdict.volume_mm3);
+}
+
 bool RepairReport::lost_too_much() const noexcept {
   const bool lost_volume =
       given_volume_mm3 && std::abs(verdict.volume_mm3 - *given_volume_mm3) >
@@ -277,7 +281,8 @@ bool RepairReport::lost_too_much() const noexcept {
   const double deep_tolerances = path == RepairPath::field ? 1.0 : RepairLoss::kMostTolerances;
   const bool is_deep =
       !loss.places.empty() && loss.places.front().distance_mm > deep_tolerances * loss.tolerance_mm;
-  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || is_deep || lost_volume;
+  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || is_deep || lost_volume ||
+         covered_too_much();
 }
 
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh_mm, const RepairOptions& options,

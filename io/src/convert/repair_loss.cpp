@@ -25,6 +25,8 @@ struct AtTriangle {
   double far_area = 0.0;
   std::int64_t samples = 0;
   RepairPlace farthest;
+  double covered_mm3 = 0.0;
+  RepairPlace deepest;  ///< of these
 };
 
 class LossSampling {
@@ -39,8 +41,11 @@ class LossSampling {
   AtTriangle look_at(std::size_t t, bool is_kept) const;
 
  private:
-  /// How far away the result is, 0 where it is within the tolerance or has matter.
-  double lost_mm(const Vec3& p, std::uint32_t& hint) const;
+  struct Found {
+    double lost_mm = 0.0;     ///< to the result; 0 where it is within the tolerance or has matter
+    double covered_mm = 0.0;  ///< below its surface, where that is within the tolerance
+  };
+  Found at(const Vec3& p, std::uint32_t& hint) const;
 
   const TriangleMesh& given_;
   const TriangleMesh& result_;
@@ -49,11 +54,15 @@ class LossSampling {
   const WindingNumber winding_;
 };
 
-double LossSampling::lost_mm(const Vec3& p, std::uint32_t& hint) const {
+LossSampling::Found LossSampling::at(const Vec3& p, std::uint32_t& hint) const {
+  constexpr double kAsGood = 0.02;  // of the tolerance: as good as on the surface
   const auto near = distance_.closest(p, tolerance_mm_, hint);
   hint = near.triangle;
-  if (near.triangle != kNoTriangle || winding_.at(p) > 0.5) return 0.0;
-  return distance_.closest(p, std::numeric_limits<double>::infinity()).distance;
+  const bool is_near = near.triangle != kNoTriangle;
+  if (is_near && near.distance < kAsGood * tolerance_mm_) return {};
+  if (winding_.at(p) > 0.5) return {0.0, is_near ? near.distance : 0.0};
+  if (is_near) return {};
+  return {distance_.closest(p, std::numeric_limits<double>::infinity()).distance, 0.0};
 }
 
 /// By its area: a sliver counts little.
@@ -84,8 +93,15 @@ AtTriangle LossSampling::look_at(std::size_t t, bool is_kept) const {
   found.area = mesh::triangle_area(corners);
   if (is_kept || found.area == 0.0) return found;
   std::uint32_t hint = kNoTriangle;
-  sample(
-      corners, tolerance_mm_, [&](const Vec3& p) { return lost_mm(p, hint); }, found);
+  double covered = 0.0;
+  const auto look = [&](const Vec3& p) {
+    const Found here = at(p, hint);
+    covered += here.covered_mm;
+    if (here.covered_mm > found.deepest.distance_mm) found.deepest = {p, here.covered_mm};
+    return here.lost_mm;
+  };
+  sample(corners, tolerance_mm_, look, found);
+  found.covered_mm3 = found.area * covered / static_cast<double>(found.samples);
   return found;
 }
 
@@ -227,6 +243,13 @@ RepairLoss measure_loss(const TriangleMesh& given, const std::vector<bool>& is_k
   loss.tolerance_mm = tolerance_mm;
   sum_up(found, loss);
   if (!loss.places.empty()) loss.parts = count_lost_parts(given, found, tolerance_mm);
+  RepairPlace deepest;
+  for (const AtTriangle& at : found) {
+    loss.covered_mm3 += at.covered_mm3;
+    if (at.deepest.distance_mm > deepest.distance_mm) deepest = at.deepest;
+  }
+  const bool is_much = loss.covered_mm3 > RepairLoss::kMostShare * std::abs(signed_volume(result));
+  if (is_much && loss.places.empty()) loss.places.push_back(deepest);
   return loss;
 }
 

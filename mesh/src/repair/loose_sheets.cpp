@@ -129,7 +129,9 @@ bool is_open_sheets(const TriangleMesh& mesh) {
 
 std::int64_t drop_loose_sheets(TriangleMesh& mesh, const Pace& pace) {
   constexpr std::int64_t kFewSheets = 64;
-  constexpr double kMostOfArea = 0.5;  // more in many sheets is a soup of triangles
+  // More of all area in many sheets is a soup of triangles, beside a sound body and an open one.
+  constexpr double kMostBesideClosed = 0.9;
+  constexpr double kMostBesideOpen = 0.5;
   constexpr std::uint32_t kAtATime = 256;
   std::vector<Vec3> positions = mesh.positions;
   const std::vector<Triangle> cones = boundary_cones(positions, mesh.triangles);
@@ -146,7 +148,8 @@ std::int64_t drop_loose_sheets(TriangleMesh& mesh, const Pace& pace) {
   const bool has_open_body = std::any_of(open.begin(), open.end(), [](const OpenPart& part) {
     return !part.is_sheet() && !part.rim.empty();
   });
-  const bool is_soup = sheets > kFewSheets && has_open_body && sheet_area > kMostOfArea * all_area;
+  const double most_of_area = has_open_body ? kMostBesideOpen : kMostBesideClosed;
+  const bool is_soup = sheets > kFewSheets && sheet_area > most_of_area * all_area;
   if (sheets == 0 || sheets == std::ssize(open) || is_soup) return 0;
   const OtherParts others(mesh, parts);
   std::vector<bool> goes(parts.count, false);

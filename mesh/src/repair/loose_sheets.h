@@ -20,8 +20,8 @@ bool is_open_sheets(const TriangleMesh& mesh);
 
 /// Leaves out sheets whose rims lie apart from all other parts, by more than twice the rim's edges
 /// or 3 % of it, where there are parts that are none: nothing printable is meant by them. Patches
-/// that lie on one another stay, and so do more than 64 that are most of the surface beside an open
-/// body: a soup. Returns how many went.
+/// that lie on one another stay, and so do more than 64 that are more than half of all surface, or
+/// nine tenths where the rest is closed: a soup. Returns how many went.
 ///
 /// Errors       throws Interrupted where `pace` asks.
 /// Determinism  same bits every time.

@@ -44,6 +44,10 @@ struct RepairLoss {
   std::int64_t parts = 0;           ///< of which next to nothing is left
   std::vector<RepairPlace> places;  ///< the farthest first, at most 10
   std::int64_t samples = 0;
+  /// Between the result and given surface that lies within it, nearer than the tolerance: where
+  /// patches lie on one another, which of them was meant is a guess. Where this is more than
+  /// kMostShare of the volume and nothing else is lost, `places` has its deepest.
+  double covered_mm3 = 0.0;
 };
 
 /// What of the result nobody gave: surface farther than a tolerance from all that was given, where
@@ -73,8 +77,10 @@ struct RepairReport : mesh::MendReport {
   std::optional<double> given_volume_mm3;
 
   /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone,
-  /// or any place is farther off than RepairLoss::kMostTolerances, through a level set than one.
+  /// or any place is farther off than RepairLoss::kMostTolerances, through a level set than one,
+  /// or more than kMostShare of the volume is covered.
   bool lost_too_much() const noexcept;
+  bool covered_too_much() const noexcept;
   /// Whether there is any such place.
   bool guessed_too_much() const noexcept { return !guess.places.empty(); }
 };
