@@ -107,7 +107,7 @@ std::string picture_script(const std::vector<Row>& rows, const std::string& name
       1.0 - 72.0 / (130 + 27 * height));
   for (int x = 0; x < width; ++x) {
     const std::string& program = programs[static_cast<std::size_t>(x)];
-    text += line("set label '%s' at %d,0.3 center font ',13'", shown(program).c_str(), x + 1);
+    text += line("set label '%s' at %d,0.2 center font ',13'", shown(program).c_str(), x + 1);
     for (int y = 0; y < height; ++y) {
       text += drawn_cell(x + 1, y + 1, cells[{kinds[static_cast<std::size_t>(y)], program}]);
     }

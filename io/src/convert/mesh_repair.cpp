@@ -270,7 +270,7 @@ Result<RepairedMesh> Repair::run() {
 }  // namespace
 
 bool RepairReport::covered_too_much() const noexcept {
-  return loss.covered_mm3 > RepairLoss::kMostShare * std::abs(verdict.volume_mm3);
+  return loss.covered_mm3 > kMostCovered * std::abs(verdict.volume_mm3);
 }
 
 bool RepairReport::lost_too_much() const noexcept {

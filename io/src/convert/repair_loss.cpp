@@ -248,7 +248,7 @@ RepairLoss measure_loss(const TriangleMesh& given, const std::vector<bool>& is_k
     loss.covered_mm3 += at.covered_mm3;
     if (at.deepest.distance_mm > deepest.distance_mm) deepest = at.deepest;
   }
-  const bool is_much = loss.covered_mm3 > RepairLoss::kMostShare * std::abs(signed_volume(result));
+  const bool is_much = loss.covered_mm3 > kMostCovered * std::abs(signed_volume(result));
   if (is_much && loss.places.empty()) loss.places.push_back(deepest);
   return loss;
 }

@@ -9,6 +9,10 @@
 
 namespace argil::io {
 
+/// Of the volume; more than that of RepairLoss::covered_mm3 is too much. Half of kMostShare: which
+/// of two sheets was meant is not all that is uncertain there.
+inline constexpr double kMostCovered = 0.005;
+
 /// What of the surface `given` is neither within `tolerance_mm` of the result nor inside it.
 /// `is_kept` says of which triangles it need not be asked.
 ///

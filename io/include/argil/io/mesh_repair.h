@@ -46,7 +46,7 @@ struct RepairLoss {
   std::int64_t samples = 0;
   /// Between the result and given surface that lies within it, nearer than the tolerance: where
   /// patches lie on one another, which of them was meant is a guess. Where this is more than
-  /// kMostShare of the volume and nothing else is lost, `places` has its deepest.
+  /// 0.5 % of the volume and nothing else is lost, `places` has its deepest.
   double covered_mm3 = 0.0;
 };
 
@@ -78,7 +78,7 @@ struct RepairReport : mesh::MendReport {
 
   /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone,
   /// or any place is farther off than RepairLoss::kMostTolerances, through a level set than one,
-  /// or more than kMostShare of the volume is covered.
+  /// or more than 0.5 % of the volume is covered.
   bool lost_too_much() const noexcept;
   bool covered_too_much() const noexcept;
   /// Whether there is any such place.
