@@ -120,7 +120,7 @@ void append_pieces(const Triangle& triangle, std::uint32_t number, double step, 
 /// The longest side that a piece may have: the shortest for which there are not too many pieces;
 /// infinite where no triangle is longer than the shortest that helps.
 double piece_step(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
-  constexpr double kFinest = 1.0 / 128.0;       // of the diagonal
+  constexpr double kFinest = 1.0 / 64.0;        // of the diagonal
   constexpr std::size_t kPerTriangle = 32;      // pieces
   constexpr std::size_t kMostAdded = 1U << 18;  // some 40 MB
   Box3 box;

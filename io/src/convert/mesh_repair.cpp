@@ -227,7 +227,6 @@ double farthest_place_mm(const RepairReport& report) {
 Result<void> Repair::rebuild_what_was_lost() {
   TriangleMesh mended = mesh_;
   const RepairReport mended_report = report_;
-  const bool was_contradicted = is_contradicted_;
   const TriangleMesh& from = is_contradicted_ && given_holes() <= kManyHoles ? facing_ : input_;
   if (auto made = rebuild(from); !made) {
     if (made.error().kind == ErrorKind::interrupted) return made.error();
@@ -237,8 +236,8 @@ Result<void> Repair::rebuild_what_was_lost() {
   }
   compare(Pace(progress_, "compare"));
   const bool is_doubtful = report_.lost_too_much() || report_.guessed_too_much();
-  const bool is_better = !is_doubtful || (was_contradicted && farthest_place_mm(report_) <
-                                                                  farthest_place_mm(mended_report));
+  const bool is_better =
+      !is_doubtful || farthest_place_mm(report_) < farthest_place_mm(mended_report);
   if (!report_.verdict.printable || !is_better) {
     mesh_ = std::move(mended);
     report_ = mended_report;
