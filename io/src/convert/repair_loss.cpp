@@ -45,7 +45,7 @@ class LossSampling {
     double lost_mm = 0.0;     ///< to the result; 0 where it is within the tolerance or has matter
     double covered_mm = 0.0;  ///< below its surface, where that is within the tolerance
   };
-  Found at(const Vec3& p, std::uint32_t& hint) const;
+  Found at(const Vec3& p, const Vec3& normal, std::uint32_t& hint) const;
 
   const TriangleMesh& given_;
   const TriangleMesh& result_;
@@ -54,13 +54,18 @@ class LossSampling {
   const WindingNumber winding_;
 };
 
-LossSampling::Found LossSampling::at(const Vec3& p, std::uint32_t& hint) const {
+LossSampling::Found LossSampling::at(const Vec3& p, const Vec3& normal, std::uint32_t& hint) const {
+  constexpr double kAlike = 0.9;    // what only crosses the surface is not covered by it
   constexpr double kAsGood = 0.02;  // of the tolerance: as good as on the surface
   const auto near = distance_.closest(p, tolerance_mm_, hint);
   hint = near.triangle;
   const bool is_near = near.triangle != kNoTriangle;
   if (is_near && near.distance < kAsGood * tolerance_mm_) return {};
-  if (winding_.at(p) > 0.5) return {0.0, is_near ? near.distance : 0.0};
+  if (winding_.at(p) > 0.5) {
+    if (!is_near) return {};
+    const Vec3 above = normalized(mesh::area_normal(mesh::corners_of(result_, near.triangle)));
+    return {0.0, dot(above, normal) > kAlike ? near.distance : 0.0};
+  }
   if (is_near) return {};
   return {distance_.closest(p, std::numeric_limits<double>::infinity()).distance, 0.0};
 }
@@ -93,9 +98,10 @@ AtTriangle LossSampling::look_at(std::size_t t, bool is_kept) const {
   found.area = mesh::triangle_area(corners);
   if (is_kept || found.area == 0.0) return found;
   std::uint32_t hint = kNoTriangle;
+  const Vec3 normal = normalized(mesh::area_normal(corners));
   double covered = 0.0;
   const auto look = [&](const Vec3& p) {
-    const Found here = at(p, hint);
+    const Found here = at(p, normal, hint);
     covered += here.covered_mm;
     if (here.covered_mm > found.deepest.distance_mm) found.deepest = {p, here.covered_mm};
     return here.lost_mm;
