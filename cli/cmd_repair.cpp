@@ -48,6 +48,7 @@ Json repair_json(const io::RepairReport& report) {
   json["thickened_sheets"] = report.thickened_sheets;
   json["coned_holes"] = report.coned_holes;
   json["dropped_sheets"] = report.dropped_sheets;
+  json["dropped_crumbs"] = report.dropped_crumbs;
   json["parted_vertices"] = report.parted_vertices;
   json["gap_mm"] = report.gap_mm;
   json["united_parts"] = report.united_parts;
@@ -59,13 +60,21 @@ Json repair_json(const io::RepairReport& report) {
   json["max_change_slack_mm"] = report.max_change_slack_mm;
   json["given_size_mm"] = to_json(report.given_size_mm);
   json["given_volume_mm3"] = report.given_volume_mm3 ? Json(*report.given_volume_mm3) : Json();
-  json["lost"] = {{"too_much", report.lost_too_much()}, {"share", report.loss.share},
-                  {"parts", report.loss.parts},         {"tolerance_mm", report.loss.tolerance_mm},
-                  {"samples", report.loss.samples},     {"places", Json::array()}};
-  for (const io::LostPlace& place : report.loss.places) {
-    json["lost"]["places"].push_back(
-        {{"at_mm", to_json(place.at_mm)}, {"distance_mm", place.distance_mm}});
-  }
+  const auto places = [](const std::vector<io::RepairPlace>& all) {
+    Json array = Json::array();
+    for (const io::RepairPlace& place : all) {
+      array.push_back({{"at_mm", to_json(place.at_mm)}, {"distance_mm", place.distance_mm}});
+    }
+    return array;
+  };
+  json["lost"] = {{"too_much", report.lost_too_much()},  {"share", report.loss.share},
+                  {"parts", report.loss.parts},          {"tolerance_mm", report.loss.tolerance_mm},
+                  {"samples", report.loss.samples},      {"covered_mm3", report.loss.covered_mm3},
+                  {"places", places(report.loss.places)}};
+  json["guessed"] = {{"too_much", report.guessed_too_much()},
+                     {"share", report.guess.share},
+                     {"tolerance_mm", report.guess.tolerance_mm},
+                     {"places", places(report.guess.places)}};
   return json;
 }
 
@@ -85,6 +94,7 @@ std::string repair_changes(const io::RepairReport& report) {
   say(report.closing.holes_closed, "holes closed");
   say(report.coned_holes, "of them by cones, since they touched or crossed others");
   say(report.dropped_sheets, "open sheets dropped beside the solids; --thicken keeps them");
+  say(report.dropped_crumbs, "flat crumbs dropped that mending cut off");
   say(report.thickened_sheets, "open sheets given a thickness");
   say(report.crossings, "pairs of triangles that crossed");
   say(report.united_parts, "parts united with those they overlapped");
@@ -101,24 +111,40 @@ std::string repair_changes(const io::RepairReport& report) {
   return text;
 }
 
-/// What is gone and where, or nothing.
+std::string places_text(const std::vector<io::RepairPlace>& places) {
+  std::string text;
+  for (const io::RepairPlace& place : places) {
+    text += "  at " + number(place.at_mm.x) + ", " + number(place.at_mm.y) + ", " +
+            number(place.at_mm.z) + ": " + number(place.distance_mm) + " mm off\n";
+  }
+  return text;
+}
+
+/// What is gone or guessed and where, or nothing.
 std::string loss_text(const io::RepairReport& report) {
   std::string text;
   const io::RepairLoss& loss = report.loss;
   if (loss.parts > 0) text += "lost: " + grouped(loss.parts) + " whole parts\n";
-  if (!loss.places.empty()) {
+  if (loss.share > 0.0) {
     text += "lost: " + number(100.0 * loss.share) + " % of the surface is farther than " +
             number(loss.tolerance_mm) + " mm from the result and outside it\n";
   }
-  for (const io::LostPlace& place : loss.places) {
-    text += "  at " + number(place.at_mm.x) + ", " + number(place.at_mm.y) + ", " +
-            number(place.at_mm.z) + ": " + number(place.distance_mm) + " mm off\n";
+  if (report.covered_too_much()) {
+    text += "covered: " + number(loss.covered_mm3) +
+            " mm3 lie between surfaces of which the outer one was taken\n";
+  }
+  text += places_text(loss.places);
+  if (report.guessed_too_much()) {
+    text += "guessed: " + number(100.0 * report.guess.share) +
+            " % of the new surface is farther than " + number(report.guess.tolerance_mm) +
+            " mm from what was given, which tells of no surface there\n" +
+            places_text(report.guess.places);
   }
   if (report.lost_too_much() && report.given_volume_mm3) {
     text += "volume: " + number(*report.given_volume_mm3) + " mm3 before, " +
             number(report.verdict.volume_mm3) + " mm3 now\n";
   }
-  if (!report.lost_too_much()) return text;
+  if (!report.lost_too_much() && !report.guessed_too_much()) return text;
   text += report.path == io::RepairPath::field
               ? "look there; a smaller --voxel-mm may keep more, --allow-loss accepts it\n"
               : "look there; --allow-loss accepts it\n";
@@ -138,7 +164,8 @@ std::string report_text(const io::RepairReport& report) {
 
 /// The file is written in any case; 1 says that it is not printable or not what it was.
 int status_for(const io::RepairReport& report, bool allow_loss) {
-  return report.verdict.printable && (allow_loss || !report.lost_too_much()) ? 0 : 1;
+  const bool is_kept = allow_loss || !(report.lost_too_much() || report.guessed_too_much());
+  return report.verdict.printable && is_kept ? 0 : 1;
 }
 
 /// All parts that the file had as one mesh.
@@ -199,6 +226,7 @@ void add_mending(const io::RepairReport& one, io::RepairReport& all) {
   all.dropped_fins += one.dropped_fins;
   all.coned_holes += one.coned_holes;
   all.dropped_sheets += one.dropped_sheets;
+  all.dropped_crumbs += one.dropped_crumbs;
   all.thickened_sheets += one.thickened_sheets;
   all.parted_vertices += one.parted_vertices;
   all.united_parts += one.united_parts;
@@ -213,6 +241,9 @@ void add_mending(const io::RepairReport& one, io::RepairReport& all) {
   all.loss.samples += one.loss.samples;
   all.loss.share = std::max(all.loss.share, one.loss.share);
   all.loss.tolerance_mm = std::max(all.loss.tolerance_mm, one.loss.tolerance_mm);
+  all.loss.covered_mm3 += one.loss.covered_mm3;
+  all.guess.share = std::max(all.guess.share, one.guess.share);
+  all.guess.tolerance_mm = std::max(all.guess.tolerance_mm, one.guess.tolerance_mm);
 }
 
 void add_verdict(const mesh::MeshVerdict& one, mesh::MeshVerdict& all) {
@@ -240,6 +271,7 @@ void add_verdict(const mesh::MeshVerdict& one, mesh::MeshVerdict& all) {
 io::RepairReport total_of(const io::RepairedAssembly& made) {
   io::RepairReport all = made.reports[0];
   all.loss.places.clear();
+  all.guess.places.clear();
   all.verdict.problems.clear();
   for (std::size_t o = 1; o < made.reports.size(); ++o) {
     const io::RepairReport& one = made.reports[o];
@@ -294,6 +326,9 @@ Result<Outcome> repair_parts(const RepairCommand& command, io::Assembly assembly
   outcome.json["lost"]["too_much"] =
       std::any_of(made.reports.begin(), made.reports.end(),
                   [](const io::RepairReport& report) { return report.lost_too_much(); });
+  outcome.json["guessed"]["too_much"] =
+      std::any_of(made.reports.begin(), made.reports.end(),
+                  [](const io::RepairReport& report) { return report.guessed_too_much(); });
   outcome.json["given_size_mm"] = to_json(given_size);
   outcome.json["size_mm"] = to_json(size_of(made.assembly));
   outcome.json["parts"] = parts_json(made, names);

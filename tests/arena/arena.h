@@ -23,6 +23,7 @@ struct ArenaOptions {
   std::size_t limit = 0;                ///< so many meshes, spread over all; 0: no limit
   std::filesystem::path keep_failed;    ///< gets the meshes that argil failed at; "": nowhere
   std::filesystem::path write_to;       ///< gets all meshes, and nothing is run; "": they are run
+  std::vector<std::string> rows;  ///< files whose rows are told instead of running; empty: none
   int jobs = 2;
 };
 

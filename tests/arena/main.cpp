@@ -11,8 +11,11 @@
 #include "argil/io/mesh_file.h"
 
 #include "arena/arena.h"
+#include "arena/child.h"
 #include "arena/contestants.h"
+#include "arena/picture.h"
 #include "arena/slice/slice.h"
+#include "support/scratch.h"
 
 namespace argil::arena {
 namespace {
@@ -29,7 +32,9 @@ constexpr const char* kUsage =
     "  --jobs N            runs at a time (2)\n"
     "  --keep-failed DIR   writes what argil failed at there\n"
     "  --write DIR         writes all meshes there, runs nothing\n"
-    "  --out NAME          writes NAME.csv and NAME.txt, and each run at once to NAME.part.csv\n";
+    "  --rows A.csv,B.csv  makes the table and picture of these rows, runs nothing\n"
+    "  --out NAME          writes NAME.csv, .txt, .gp and .svg, and each run at once to "
+    "NAME.part.csv\n";
 
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
@@ -61,6 +66,8 @@ bool set_option(ArenaOptions& options, std::string& out, const std::string& name
   } else if (name == "--write") {
     options.write_to = value;
     std::filesystem::create_directories(value);
+  } else if (name == "--rows") {
+    options.rows = words_of(value);
   } else if (name == "--out") {
     out = value;
   } else {
@@ -74,6 +81,18 @@ void tell(const std::string& out, const std::string& table, const std::string& c
   if (out.empty()) return;
   std::ofstream(out + ".csv") << csv;
   std::ofstream(out + ".txt") << table;
+}
+
+void draw(const std::filesystem::path& out, const std::vector<Row>& rows) {
+  constexpr double kPatienceToDrawS = 60.0;
+  const test::ScratchFolder scratch;
+  const std::filesystem::path folder = std::filesystem::absolute(out).parent_path();
+  const std::string name = out.filename().string();
+  std::ofstream(out.string() + ".gp") << picture_script(rows, name);
+  const ChildEnd end = run_child(
+      scratch.path(), {"gnuplot", "-e", "cd '" + folder.string() + "'; load '" + name + ".gp'"},
+      kPatienceToDrawS);
+  if (end.status != 0) std::cerr << "no picture: gnuplot: " << end.err << '\n';
 }
 
 int run_slice(const ArenaOptions& options, const std::string& out) {
@@ -100,6 +119,14 @@ int run(const std::vector<std::string>& words) {
     return 2;
   }
   if (is_slice) return run_slice(options, out);
+  if (!options.rows.empty()) {
+    std::string csv;
+    for (const std::string& file : options.rows) csv += test::content_of(file);
+    const std::vector<Row> rows = rows_of(csv);
+    std::cout << table_of(rows);
+    if (!out.empty()) draw(out, rows);
+    return 0;
+  }
   const Say say = [](const std::string& line) { std::cerr << line << std::endl; };
   const std::vector<Broken> meshes = broken_meshes(options, say);
   say(std::to_string(meshes.size()) + " meshes");
@@ -113,6 +140,7 @@ int run(const std::vector<std::string>& words) {
   const auto done = [&](const Row& row) { so_far << csv_line(row) << std::flush; };
   const std::vector<Row> rows = run_arena(meshes, options, say, done);
   tell(out, table_of(rows), csv_of(rows));
+  if (!out.empty()) draw(out, rows);
   return 0;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <sstream>
+#include <utility>
 
 namespace argil::arena {
 namespace {
@@ -116,6 +118,35 @@ std::string csv_of(const std::vector<Row>& rows) {
   std::string text = csv_head();
   for (const Row& row : rows) text += csv_line(row);
   return text;
+}
+
+std::vector<Row> rows_of(const std::string& csv) {
+  constexpr std::size_t kFields = 18;  // before the reason, which may have commas
+  std::vector<Row> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream in(line);
+    for (std::string field; fields.size() < kFields && std::getline(in, field, ',');) {
+      fields.push_back(field);
+    }
+    if (fields.size() < kFields || fields[0] == "kind" || fields[0][0] == '#') continue;
+    Row row;
+    row.kind = fields[0];
+    row.model = fields[1];
+    row.strength = std::stoi(fields[2]);
+    row.triangles = std::stoul(fields[3]);
+    row.contestant = fields[4];
+    row.judged.valid = fields[5] == "1";
+    row.judged.kept = fields[6] == "1";
+    row.attempt.status = std::stoi(fields[8]);
+    row.attempt.names_a_place = fields[9] == "1";
+    row.attempt.crashed = fields[10] == "1";
+    row.attempt.hung = fields[11] == "1";
+    row.attempt.cpu_s = std::stod(fields[13]);
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 std::string table_of(const std::vector<Row>& rows) {

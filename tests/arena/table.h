@@ -33,6 +33,10 @@ std::string csv_line(const Row& row);
 /// All of them.
 std::string csv_of(const std::vector<Row>& rows);
 
+/// The rows of such text, but for the seconds on the wall and why; lines that are none are passed
+/// over.
+std::vector<Row> rows_of(const std::string& csv);
+
 /// A line for each kind and program, then the totals, then what the arena asks of argil and whether
 /// that is so, with the kinds in which another program is ahead of it.
 std::string table_of(const std::vector<Row>& rows);

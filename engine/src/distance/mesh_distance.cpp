@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <new>
+#include <utility>
 
 #include "argil/core/closest_on_triangle.h"
 
@@ -21,6 +23,8 @@ struct MeshDistance::Scene {
   const std::vector<Triangle>& triangles;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::vector<std::uint32_t>
+      triangle_of;        // of each piece in the tree; empty: they are the triangles
   double rounding = 0.0;  // how far a float may move a point, with room for Embree's own arithmetic
 
   Scene(const std::vector<Vec3>& p, const std::vector<Triangle>& t) : positions(p), triangles(t) {}
@@ -37,6 +41,7 @@ namespace {
 struct Query {
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;
+  const std::vector<std::uint32_t>& triangle_of;
   Vec3 p;
   double rounding;
   double best2;
@@ -63,9 +68,88 @@ struct Query {
 /// Embree's callback: a closer triangle shrinks the search.
 bool on_triangle(RTCPointQueryFunctionArguments* args) {
   Query& query = *static_cast<Query*>(args->userPtr);
-  if (!query.offer(args->primID)) return false;
+  const std::uint32_t piece = args->primID;
+  if (!query.offer(query.triangle_of.empty() ? piece : query.triangle_of[piece])) return false;
   args->query->radius = query.radius();
   return true;
+}
+
+/// Long triangles that lie askew have boxes full of others: the tree has pieces of them.
+struct Pieces {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> triangle_of;
+};
+
+double longest_side(const std::vector<Vec3>& positions, const Triangle& t) {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    longest = std::max(longest, length(positions[t[(k + 1) % 3]] - positions[t[k]]));
+  }
+  return longest;
+}
+
+/// Halved across their longest side until that is no longer than `step`.
+void append_pieces(const Triangle& triangle, std::uint32_t number, double step, Pieces& pieces) {
+  std::vector<Triangle> open{triangle};
+  while (!open.empty()) {
+    const Triangle t = open.back();
+    open.pop_back();
+    std::size_t longest = 0;
+    double side = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double own = length(pieces.positions[t[(k + 1) % 3]] - pieces.positions[t[k]]);
+      if (own > side) longest = k;
+      side = std::max(side, own);
+    }
+    if (!(side > step)) {
+      pieces.triangles.push_back(t);
+      pieces.triangle_of.push_back(number);
+      continue;
+    }
+    const std::size_t next = (longest + 1) % 3;
+    const auto middle = static_cast<std::uint32_t>(pieces.positions.size());
+    pieces.positions.push_back(0.5 * (pieces.positions[t[longest]] + pieces.positions[t[next]]));
+    for (const std::size_t moved : {longest, next}) {
+      open.push_back(t);
+      open.back()[moved] = middle;
+    }
+  }
+}
+
+/// The longest side that a piece may have: the shortest for which there are not too many pieces;
+/// infinite where no triangle is longer than the shortest that helps.
+double piece_step(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles) {
+  constexpr double kFinest = 1.0 / 64.0;        // of the diagonal
+  constexpr std::size_t kPerTriangle = 32;      // pieces
+  constexpr std::size_t kMostAdded = 1U << 18;  // some 40 MB
+  Box3 box;
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t) box.include(positions[v]);
+  }
+  const double budget = static_cast<double>(std::min(kPerTriangle * triangles.size(), kMostAdded));
+  double step = kFinest * length(box.size());
+  for (;; step *= 1.5) {
+    double pieces = 0.0;
+    for (const Triangle& t : triangles) {
+      const double side = longest_side(positions, t);
+      if (!(side > step)) continue;
+      const Vec3& p = positions[t[0]];
+      const double height = length(cross(positions[t[1]] - p, positions[t[2]] - p)) / side;
+      pieces += 2.0 * (side / step) * (height / step + 1.0);
+    }
+    if (pieces == 0.0) return std::numeric_limits<double>::infinity();
+    if (pieces <= budget) return step;
+  }
+}
+
+Pieces pieces_of(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+                 double step) {
+  Pieces pieces{positions, {}, {}};
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    append_pieces(triangles[t], t, step, pieces);
+  }
+  return pieces;
 }
 
 /// Positions as floats; the exact ones stay with the caller.
@@ -103,7 +187,13 @@ MeshDistance::MeshDistance(const std::vector<Vec3>& positions,
   const GeometryHandle geometry(rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE),
                                 &rtcReleaseGeometry);
   if (geometry == nullptr) throw std::bad_alloc();
-  fill_buffers(geometry.get(), positions, triangles);
+  if (const double step = piece_step(positions, triangles); std::isfinite(step)) {
+    Pieces pieces = pieces_of(positions, triangles, step);
+    fill_buffers(geometry.get(), pieces.positions, pieces.triangles);
+    scene_->triangle_of = std::move(pieces.triangle_of);
+  } else {
+    fill_buffers(geometry.get(), positions, triangles);
+  }
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scene_->scene, geometry.get());
   rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -116,7 +206,13 @@ MeshDistance::~MeshDistance() = default;
 MeshDistance::Closest MeshDistance::closest(const Vec3& p, double reach, std::uint32_t hint) const {
   assert(is_finite(p) && reach >= 0.0);
   assert(hint == kNoTriangle || hint < scene_->triangles.size());
-  Query query{scene_->positions, scene_->triangles, p, scene_->rounding, reach * reach, {}};
+  Query query{scene_->positions,
+              scene_->triangles,
+              scene_->triangle_of,
+              p,
+              scene_->rounding,
+              reach * reach,
+              {}};
   if (hint != kNoTriangle) query.offer(hint);
   if (!scene_->triangles.empty()) {
     RTCPointQuery ball{};

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string_view>
+#include <thread>
 
 #include <tbb/parallel_for.h>
 
@@ -51,7 +54,10 @@ class SurfaceDistance {
   /// No point of the triangle is farther: it is no farther from any one triangle than its corners.
   double most_mm(const AskedTriangle& asked) const;
   /// The greatest distance within the triangle, to `slack_mm`, where it is more than `found_mm`.
-  double refined(const AskedTriangle& asked, double found_mm, double slack_mm) const;
+  /// `hear()` is called now and then and says whether to stop.
+  template <class Hear>
+  double refined(const AskedTriangle& asked, double found_mm, double slack_mm,
+                 const Hear& hear) const;
 
  private:
   Closest closest(const Vec3& p, std::uint32_t hint) const {
@@ -83,11 +89,14 @@ double SurfaceDistance::most_mm(const AskedTriangle& asked) const {
   return most;
 }
 
-double SurfaceDistance::refined(const AskedTriangle& asked, double found_mm,
-                                double slack_mm) const {
+template <class Hear>
+double SurfaceDistance::refined(const AskedTriangle& asked, double found_mm, double slack_mm,
+                                const Hear& hear) const {
+  constexpr std::size_t kAtATime = 4096;  // some tens of milliseconds
   assert(slack_mm > 0.0);
   std::vector<AskedTriangle> open{asked};
-  while (!open.empty()) {
+  for (std::size_t n = 1; !open.empty(); ++n) {
+    if (n % kAtATime == 0 && hear()) break;
     const AskedTriangle now = open.back();
     open.pop_back();
     found_mm = std::max(found_mm, now.least_mm());
@@ -109,6 +118,36 @@ double SurfaceDistance::refined(const AskedTriangle& asked, double found_mm,
   return found_mm;
 }
 
+/// Hears a stop while others work too: only the thread that began may ask, the others see what it
+/// heard.
+class StopHeard {
+ public:
+  explicit StopHeard(const Pace& pace) : pace_(pace) {}
+
+  void at(double fraction) {
+    now_ = fraction;
+    pace_.at(fraction);
+  }
+  /// Throws Interrupted on the thread that began.
+  bool hear() {
+    if (std::this_thread::get_id() == owner_) {
+      try {
+        pace_.at(now_);
+      } catch (const Interrupted&) {
+        is_stopped_ = true;
+        throw;
+      }
+    }
+    return is_stopped_;
+  }
+
+ private:
+  const Pace& pace_;
+  const std::thread::id owner_ = std::this_thread::get_id();
+  double now_ = 0.0;
+  std::atomic<bool> is_stopped_ = false;
+};
+
 }  // namespace
 
 GreatestDistance greatest_distance(const TriangleMesh& from,
@@ -119,10 +158,14 @@ GreatestDistance greatest_distance(const TriangleMesh& from,
   const SurfaceDistance surface(to);
   std::vector<AskedTriangle> asked(triangles.size());
   std::vector<double> most(triangles.size());
-  tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t n) {
-    asked[n] = surface.asked(mesh::corners_of(from, triangles[n]));
-    most[n] = surface.most_mm(asked[n]);
-  });
+  constexpr std::size_t kAtATime = 16'384;
+  for (std::size_t begin = 0; begin < triangles.size(); begin += kAtATime) {
+    pace.at(0.5 * static_cast<double>(begin) / static_cast<double>(triangles.size()));
+    tbb::parallel_for(begin, std::min(begin + kAtATime, triangles.size()), [&](std::size_t n) {
+      asked[n] = surface.asked(mesh::corners_of(from, triangles[n]));
+      most[n] = surface.most_mm(asked[n]);
+    });
+  }
   double found = 0.0;
   for (const AskedTriangle& one : asked) found = std::max(found, one.least_mm());
   slack_mm = std::max(slack_mm, kSlackShare * found);
@@ -132,8 +175,13 @@ GreatestDistance greatest_distance(const TriangleMesh& from,
   for (const double of : most) {
     bounds.push_back(std::nextafter(static_cast<float>(of - slack_mm), 3e38F));
   }
-  found = greatest_by_bound(bounds, found, pace, [&](std::uint32_t n, double known) {
-    return surface.refined(asked[n], known, slack_mm);
+  StopHeard stop(pace);
+  const Progress tell = [&](std::string_view, double fraction) {
+    stop.at(0.5 + 0.5 * fraction);
+    return true;
+  };
+  found = greatest_by_bound(bounds, found, Pace(tell, ""), [&](std::uint32_t n, double known) {
+    return surface.refined(asked[n], known, slack_mm, [&] { return stop.hear(); });
   });
   return {found, std::min(first_most, found + slack_mm)};
 }

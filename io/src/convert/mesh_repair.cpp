@@ -35,6 +35,8 @@ constexpr double kMostVoxelsAlong = 512.0;
 /// Where so many holes are left, the field has so many fewer nodes.
 constexpr std::int64_t kManyHoles = 16;
 constexpr double kShareWithGaps = 0.15;
+/// And where a few long rims are, beside which all nodes ask.
+constexpr double kShareWithRims = 0.35;
 
 /// Smaller than a cube of so many voxels are what triangles that close nothing leave here and
 /// there.
@@ -49,8 +51,11 @@ class Repair {
   Result<RepairedMesh> run();
 
  private:
-  double voxel_mm() const;
-  Result<void> rebuild();
+  std::int64_t given_holes() const {
+    return report_.closing.holes_left + report_.closing.holes_closed - report_.coned_holes;
+  }
+  double voxel_mm(const TriangleMesh& from) const;
+  Result<void> rebuild(const TriangleMesh& from);
   Result<void> rebuild_what_was_lost();
   void compare(const Pace& pace);
   void measure_change(const Pace& pace);
@@ -60,18 +65,24 @@ class Repair {
   const RepairOptions& options_;
   const Progress& progress_;
   TriangleMesh mesh_;
+  TriangleMesh facing_;           ///< MendedMesh::facing
+  bool is_contradicted_ = false;  ///< surface is where the winding of `facing_` says there is none
   RepairReport report_;
 };
 
-double Repair::voxel_mm() const {
+double Repair::voxel_mm(const TriangleMesh& from) const {
   if (options_.voxel_mm > 0.0) return options_.voxel_mm;
   assert(!input_.triangles.empty());
   const Vec3 sides = mesh::used_bounds(input_).size();
   const double largest = std::max({sides.x, sides.y, sides.z});
   // Each of the nodes beside triangles that do not meet asks all of them which side it is on.
-  const double share = report_.closing.holes_left > kManyHoles ? kShareWithGaps : 1.0;
+  const mesh::CloseReport& closing = report_.closing;
+  const std::int64_t holes = &from == &facing_ ? given_holes() : closing.holes_left;
+  const double share = holes > kManyHoles  ? kShareWithGaps
+                       : &from == &facing_ ? kShareWithRims
+                                           : 1.0;
   const double usual =
-      std::clamp(std::sqrt(surface_area(mesh_) / (share * kSurfaceNodes)),
+      std::clamp(std::sqrt(surface_area(from) / (share * kSurfaceNodes)),
                  largest / kMostVoxelsAlong, largest / (std::sqrt(share) * kLeastVoxelsAlong));
   return std::clamp(usual, kLeastVoxelMm, kMostVoxelMm);
 }
@@ -97,15 +108,12 @@ bool is_flat(const TriangleMesh& mesh) {
   });
 }
 
-Result<void> Repair::rebuild() {
-  if (mesh_.triangles.empty()) mesh_ = input_;
-  if (is_flat(mesh_)) {
+Result<void> Repair::rebuild(const TriangleMesh& from) {
+  if (is_flat(from)) {
     return Error{ErrorKind::bad_input,
                  "the mesh is flat: it encloses nothing; give it a thickness with --thicken"};
   }
-  const double voxel = voxel_mm();
-  const TriangleMesh& from =
-      report_.path == RepairPath::local && report_.verdict.printable ? input_ : mesh_;
+  const double voxel = voxel_mm(from);
   auto imported = import_mesh(from, {.voxel_mm = voxel}, progress_);
   if (!imported) return imported.error();
   report_.path = RepairPath::field;
@@ -163,12 +171,24 @@ void Repair::measure_change(const Pace& pace) {
   }
   report_.kept_triangles = static_cast<std::int64_t>(is_old.size() - changed.size());
   const GreatestDistance change =
-      greatest_distance(mesh_, changed, input_, kSlack * side, pace.part(0.0, 0.5));
+      greatest_distance(mesh_, changed, input_, kSlack * side, pace.part(0.0, 0.4));
   report_.max_change_mm = change.at_most_mm;
   report_.max_change_slack_mm = change.at_most_mm - change.at_least_mm;
   const double tolerance = std::max(kTolerance * side, kVoxels * report_.voxel_mm);
+  // Whoever chooses a voxel is content with the edges that it leaves. Else those of a level set
+  // count a little earlier, since what was given may be off itself.
+  constexpr double kOfField = 0.8;
+  const double usual = kTolerance * side * (report_.path == RepairPath::field ? kOfField : 1.0);
+  const double least_loss = options_.voxel_mm > 0.0 ? tolerance : usual;
   report_.loss =
-      measure_loss(input_, found_in(mesh_, input_, true), mesh_, tolerance, pace.part(0.5, 1.0));
+      measure_loss(input_, found_in(mesh_, input_, true), mesh_, least_loss, pace.part(0.4, 0.7));
+  report_.guess = measure_guess(facing_, mesh_, is_old, tolerance, true, pace.part(0.7, 0.9));
+  is_contradicted_ = report_.guessed_too_much();
+  const double farthest = RepairLoss::kMostTolerances * tolerance;
+  // What a level set adds far from all that was given closes an opening, but nobody knows how.
+  if (!is_contradicted_ && report_.path == RepairPath::field && report_.max_change_mm > farthest) {
+    report_.guess = measure_guess(facing_, mesh_, is_old, farthest, false, pace.part(0.9, 1.0));
+  }
 }
 
 /// As `mend` found it. What crosses or faces both ways has a volume that nobody can tell so simply.
@@ -194,19 +214,31 @@ void Repair::compare(const Pace& pace) {
   note_given_volume();
 }
 
-/// Where mending lost something, a level set may lose less: it tells the inside of triangles that
-/// close nothing.
+double farthest_place_mm(const RepairReport& report) {
+  double farthest = 0.0;
+  for (const auto* places : {&report.loss.places, &report.guess.places}) {
+    if (!places->empty()) farthest = std::max(farthest, places->front().distance_mm);
+  }
+  return farthest;
+}
+
+/// Where mending lost or guessed something, a level set may do better: it tells the inside of
+/// triangles that close nothing.
 Result<void> Repair::rebuild_what_was_lost() {
   TriangleMesh mended = mesh_;
   const RepairReport mended_report = report_;
-  if (auto made = rebuild(); !made) {
+  const TriangleMesh& from = is_contradicted_ && given_holes() <= kManyHoles ? facing_ : input_;
+  if (auto made = rebuild(from); !made) {
     if (made.error().kind == ErrorKind::interrupted) return made.error();
     mesh_ = std::move(mended);
     report_ = mended_report;
     return {};
   }
   compare(Pace(progress_, "compare"));
-  if (!report_.verdict.printable || report_.lost_too_much()) {
+  const bool is_doubtful = report_.lost_too_much() || report_.guessed_too_much();
+  const bool is_better =
+      !is_doubtful || farthest_place_mm(report_) < farthest_place_mm(mended_report);
+  if (!report_.verdict.printable || !is_better) {
     mesh_ = std::move(mended);
     report_ = mended_report;
   }
@@ -217,13 +249,18 @@ Result<RepairedMesh> Repair::run() {
   auto mended = mesh::mend_mesh(input_, options_.thickening, progress_);
   if (!mended) return mended.error();
   mesh_ = std::move(mended.value().mesh);
+  facing_ = std::move(mended.value().facing);
   static_cast<mesh::MendReport&>(report_) = std::move(mended.value().report);
   if (report_.is_changed) report_.path = RepairPath::local;
   if (!report_.verdict.printable) {
-    if (auto made = rebuild(); !made) return made.error();
+    const TriangleMesh from = mesh_.triangles.empty() ? input_ : mesh_;
+    if (auto made = rebuild(from); !made) return made.error();
   }
   compare(Pace(progress_, "compare"));
-  if (report_.coned_holes > 0 && report_.path == RepairPath::local && report_.lost_too_much()) {
+  const bool is_coned = report_.coned_holes > 0 && report_.path == RepairPath::local;
+  // With more holes a level set of what was given takes as long as all else together.
+  const bool can_ask_given = is_contradicted_ && given_holes() <= kManyHoles;
+  if (can_ask_given || (is_coned && report_.lost_too_much())) {
     if (auto tried = rebuild_what_was_lost(); !tried) return tried.error();
   }
   return RepairedMesh{std::move(mesh_), std::move(report_)};
@@ -231,16 +268,20 @@ Result<RepairedMesh> Repair::run() {
 
 }  // namespace
 
+bool RepairReport::covered_too_much() const noexcept {
+  return loss.covered_mm3 > kMostCovered * std::abs(verdict.volume_mm3);
+}
+
 bool RepairReport::lost_too_much() const noexcept {
   const bool lost_volume =
       given_volume_mm3 && std::abs(verdict.volume_mm3 - *given_volume_mm3) >
                               RepairLoss::kMostShare * std::abs(*given_volume_mm3);
-  // A level set that adds what is nowhere near the input guessed.
-  const bool guessed =
-      path == RepairPath::field && max_change_mm > RepairLoss::kMostTolerances * loss.tolerance_mm;
-  const bool is_deep = !loss.places.empty() && loss.places.front().distance_mm >
-                                                   RepairLoss::kMostTolerances * loss.tolerance_mm;
-  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || is_deep || lost_volume || guessed;
+  // Of a level set nothing is as it was: all that it lost beyond the tolerance counts.
+  const double deep_tolerances = path == RepairPath::field ? 1.0 : RepairLoss::kMostTolerances;
+  const bool is_deep =
+      !loss.places.empty() && loss.places.front().distance_mm > deep_tolerances * loss.tolerance_mm;
+  return loss.parts > 0 || loss.share > RepairLoss::kMostShare || is_deep || lost_volume ||
+         covered_too_much();
 }
 
 Result<RepairedMesh> repair_mesh(const TriangleMesh& mesh_mm, const RepairOptions& options,

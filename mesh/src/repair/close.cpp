@@ -17,9 +17,13 @@
 #include "argil/mesh/edges.h"
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/point_welder.h"
+#include "argil/mesh/triangle_geometry.h"
 
+#include "repair/close_soup.h"
 #include "repair/hole_fill.h"
+#include "repair/library_call.h"
 #include "repair/orient.h"
+#include "repair/rim_bands.h"
 #include "repair/seams.h"
 
 namespace argil::mesh {
@@ -186,15 +190,12 @@ double loop_area(const TriangleMesh& mesh, const EdgeTable& edges,
 std::vector<double> part_areas(const TriangleMesh& mesh, const MeshParts& parts) {
   std::vector<double> areas(parts.count, 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    areas[parts.of_triangle[i]] += length(cross(mesh.positions[b] - mesh.positions[a],
-                                                mesh.positions[c] - mesh.positions[a])) /
-                                   2.0;
+    areas[parts.of_triangle[i]] += triangle_area(corners_of(mesh, i));
   }
   return areas;
 }
 
-/// Adds the patches that do not give an edge a third triangle; the number of those added.
+/// Adds the patches that do not give an edge a third triangle; how many holes these close.
 std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches) {
   TriangleMesh filled = mesh;
   std::vector<std::size_t> patch_of(mesh.triangles.size(), patches.size());
@@ -219,31 +220,43 @@ std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches
   }
   if (std::find(sound.begin(), sound.end() - 1, false) == sound.end() - 1) {
     mesh = std::move(filled);
-    return static_cast<std::int64_t>(patches.size());
+    return std::accumulate(
+        patches.begin(), patches.end(), std::int64_t{0},
+        [](std::int64_t sum, const HolePatch& patch) { return sum + patch.holes; });
   }
   TriangleMesh some = mesh;
   std::int64_t added = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!sound[i]) continue;
     append(patches[i], i, some);
-    ++added;
+    added += patches[i].holes;
   }
   mesh = std::move(some);
   return added;
 }
 
-void fill_holes(TriangleMesh& mesh, const MeshParts& parts, CloseReport& report) {
+void fill_holes(TriangleMesh& mesh, const MeshParts& parts, bool joins_rims, CloseReport& report) {
   const EdgeTable edges(mesh);
   const Rims rims = find_rims(mesh, edges);
   std::vector<HolePatch> patches;
   if (!rims.loops.empty()) {
     const std::vector<double> areas = part_areas(mesh, parts);
     HoleFiller filler(mesh, edges);
-    for (const std::vector<HalfEdge>& loop : rims.loops) {
+    std::vector<bool> is_joined(rims.loops.size(), false);
+    if (joins_rims) {
+      for (const auto& [a, b] : loops_beside(mesh, edges, parts, rims.loops)) {
+        is_joined[a] = is_joined[b] = true;
+        patches.push_back({{}, band_between(mesh, edges, rims.loops[a], rims.loops[b]), 2});
+      }
+    }
+    for (std::size_t n = 0; n < rims.loops.size(); ++n) {
+      if (is_joined[n]) continue;
+      const RimLoop& loop = rims.loops[n];
       const double part_area = areas[parts.of_triangle[triangle_of(loop[0])]];
       const double area = loop_area(mesh, edges, loop);
       if (area >= kLargestHole * part_area) continue;
-      HolePatch patch = filler.fill(loop, area < kLargestBulge * part_area);
+      HolePatch patch;
+      is_done_by_library([&] { patch = filler.fill(loop, area < kLargestBulge * part_area); });
       if (!patch.triangles.empty()) patches.push_back(std::move(patch));
     }
   }
@@ -323,14 +336,13 @@ std::vector<Shell> shells_of(const TriangleMesh& mesh, const EdgeTable& edges,
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     Shell& shell = shells[parts.of_triangle[i]];
-    const auto& [a, b, c] = mesh.triangles[i];
-    for (const std::uint32_t v : mesh.triangles[i]) shell.box.include(mesh.positions[v]);
-    const Vec3& p = mesh.positions[a];
-    const double area = 0.5 * length(cross(mesh.positions[b] - p, mesh.positions[c] - p));
+    const Corners corners = corners_of(mesh, i);
+    for (const Vec3& p : corners) shell.box.include(p);
+    const double area = triangle_area(corners);
     shell.area += area;
     if (area > shell.largest) {
       shell.largest = area;
-      shell.middle = (p + mesh.positions[b] + mesh.positions[c]) / 3.0;
+      shell.middle = middle(corners);
     }
   }
   close_by_cones(mesh, edges, parts, shells);
@@ -344,10 +356,53 @@ bool contains_box(const Box3& outer, const Box3& inner) noexcept {
   return true;
 }
 
+/// Parts that are open where they meet others along edges of three and more triangles, and closed
+/// together with these, as one: cavities side by side have a wall in common that is a part of its
+/// own. Which side of such a part is out nothing but the others says.
+MeshParts joined_where_closed(const EdgeTable& edges, const MeshParts& parts) {
+  DisjointSets sets(parts.count);
+  // Who runs along an edge more often one way than the other.
+  const auto each_net = [&](const auto& number_of, const auto& use) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto uses = edges.uses(e);
+      if (uses.size() == 2 && edges.forward(uses[0]) != edges.forward(uses[1])) continue;
+      std::vector<std::pair<std::uint32_t, int>> ways;
+      for (const HalfEdge h : uses) {
+        ways.emplace_back(number_of(triangle_of(h)), edges.forward(h) ? 1 : -1);
+      }
+      std::sort(ways.begin(), ways.end());
+      std::vector<std::uint32_t> open;
+      for (std::size_t first = 0, n = 0; n < ways.size(); first = n) {
+        int net = 0;
+        for (; n < ways.size() && ways[n].first == ways[first].first; ++n) net += ways[n].second;
+        if (net != 0) open.push_back(ways[first].first);
+      }
+      use(open);
+    }
+  };
+  each_net([&](std::size_t t) { return parts.of_triangle[t]; },
+           [&](const std::vector<std::uint32_t>& open) {
+             for (const std::uint32_t part : open) sets.unite(open.front(), part);
+           });
+  std::vector<bool> is_closed(parts.count, true);
+  each_net([&](std::size_t t) { return sets.find(parts.of_triangle[t]); },
+           [&](const std::vector<std::uint32_t>& open) {
+             for (const std::uint32_t set : open) is_closed[set] = false;
+           });
+  MeshParts joined;
+  std::vector<std::uint32_t> number(parts.count, kNoPart);
+  for (std::uint32_t part = 0; part < parts.count; ++part) {
+    const std::uint32_t set = sets.find(part);  // its smallest member
+    number[part] = set == part || !is_closed[set] ? joined.count++ : number[set];
+  }
+  for (const std::uint32_t part : parts.of_triangle) joined.of_triangle.push_back(number[part]);
+  return joined;
+}
+
 /// Faces every part outward; a closed one inside another follows that one, so that a cavity stays.
 void turn_outward(TriangleMesh& mesh, CloseReport& report) {
   const EdgeTable edges(mesh);
-  const MeshParts parts = mesh_parts(mesh, edges, true);
+  const MeshParts parts = joined_where_closed(edges, mesh_parts(mesh, edges, true));
   std::vector<Shell> shells = shells_of(mesh, edges, parts);
   // The largest first: whatever a part can lie in is judged before it.
   std::stable_sort(shells.begin(), shells.end(), [](const Shell& a, const Shell& b) {
@@ -390,15 +445,20 @@ bool balanced(const TriangleMesh& mesh) {
 }
 
 /// Leaves out triangles without area, which enclose nothing, and vertices nobody names.
-void drop_flat(TriangleMesh& mesh, CloseReport& report) {
+void drop_flat(ClosedMesh& closed) {
+  TriangleMesh& mesh = closed.mesh;
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh);
-  report.dropped_triangles += static_cast<std::int64_t>(flat.size());
+  closed.given_triangles -= static_cast<std::size_t>(std::count_if(
+      flat.begin(), flat.end(), [&](std::uint32_t t) { return t < closed.given_triangles; }));
+  closed.report.dropped_triangles += static_cast<std::int64_t>(flat.size());
   mesh = only_triangles(mesh, [&](std::size_t t) {
     return !std::binary_search(flat.begin(), flat.end(), static_cast<std::uint32_t>(t));
   });
 }
 
-Result<ClosedMesh> close(const TriangleMesh& input) {
+}  // namespace
+
+Result<ClosedMesh> close_soup(const TriangleMesh& input, bool joins_rims) {
   ClosedMesh result;
   CloseReport& report = result.report;
   TriangleMesh& mesh = result.mesh;
@@ -411,11 +471,12 @@ Result<ClosedMesh> close(const TriangleMesh& input) {
     }
     const MeshParts parts = mesh_parts(mesh, edges, true);
     report.turned_triangles = orient_alike(mesh, edges, parts);
-    fill_holes(mesh, parts, report);
+    result.given_triangles = mesh.triangles.size();
+    fill_holes(mesh, parts, joins_rims, report);
   }
   turn_outward(mesh, report);
   report.closed = !mesh.triangles.empty() && balanced(mesh);
-  drop_flat(mesh, report);
+  drop_flat(result);
   if (mesh.triangles.empty()) {
     return Error{ErrorKind::bad_input,
                  "the mesh has no triangle with an area; check the unit it was exported in"};
@@ -423,10 +484,8 @@ Result<ClosedMesh> close(const TriangleMesh& input) {
   return result;
 }
 
-}  // namespace
-
 Result<ClosedMesh> close_mesh(const TriangleMesh& mesh) {
-  return no_throw("closing the mesh", [&] { return close(mesh); });
+  return no_throw("closing the mesh", [&] { return close_soup(mesh, false); });
 }
 
 }  // namespace argil::mesh

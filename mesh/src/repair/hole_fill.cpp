@@ -151,7 +151,7 @@ HolePatch HoleFiller::fill(const std::vector<HalfEdge>& rim, bool may_curve) {
   if (!patch.triangles.empty()) return patch;
   std::vector<std::uint32_t> backwards;  // as the patch must run against its neighbours
   for (auto h = rim.rbegin(); h != rim.rend(); ++h) backwards.push_back(edges_.to(*h));
-  return {{}, fill_flat(backwards)};
+  return {{}, fill_flat(backwards), 1};
 }
 
 }  // namespace argil::mesh

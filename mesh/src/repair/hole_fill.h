@@ -15,6 +15,7 @@ namespace argil::mesh {
 struct HolePatch {
   std::vector<Vec3> added;
   std::vector<Triangle> triangles;  ///< none: the hole could not be filled
+  std::int64_t holes = 1;           ///< that they close
 };
 
 /// Fills holes of a mesh whose triangles are turned alike across every edge of two.

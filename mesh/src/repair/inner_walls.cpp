@@ -63,7 +63,8 @@ double winding_of_the_rest(const TriangleMesh& mesh, const MeshParts& parts, con
 }
 
 /// The sheet that the others enclose most, which is dropped first; kNoPart where they enclose none.
-std::uint32_t innermost(const TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts) {
+std::uint32_t innermost(const TriangleMesh& mesh, const EdgeTable& edges, const MeshParts& parts,
+                        const Pace& pace) {
   constexpr std::size_t kMostAsked = 2'000'000;  // triangles, a second or two
   const std::vector<WallSheet> sheets = wall_sheets(mesh, edges, parts);
   const MeshParts whole = mesh_parts(mesh, edges, false);
@@ -75,6 +76,7 @@ std::uint32_t innermost(const TriangleMesh& mesh, const EdgeTable& edges, const 
   double most = 0.5;
   std::uint32_t found = kNoPart;
   for (const std::uint32_t n : candidates) {
+    pace.at(0.0);
     const double winding = winding_of_the_rest(mesh, parts, whole, n, sheets[n].largest);
     if (winding <= most) continue;
     most = winding;
@@ -85,12 +87,12 @@ std::uint32_t innermost(const TriangleMesh& mesh, const EdgeTable& edges, const 
 
 }  // namespace
 
-std::int64_t drop_inner_walls(TriangleMesh& mesh) {
+std::int64_t drop_inner_walls(TriangleMesh& mesh, const Pace& pace) {
   const std::size_t before = mesh.triangles.size();
   while (true) {
     const EdgeTable edges(mesh);
     const MeshParts parts = mesh_parts(mesh, edges, true);
-    const std::uint32_t wall = innermost(mesh, edges, parts);
+    const std::uint32_t wall = innermost(mesh, edges, parts, pace);
     if (wall == kNoPart) break;
     mesh = only_triangles(mesh, [&](std::size_t t) { return parts.of_triangle[t] != wall; });
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 
 namespace argil::mesh {
@@ -12,9 +13,10 @@ namespace argil::mesh {
 /// mean no more than the shell. Not where walls are so many that asking would take long. Returns
 /// how many triangles went.
 ///
+/// Errors       throws Interrupted where `pace` asks.
 /// Determinism  same bits every time.
 /// Threads      one.
 /// Cost         the edges; where there are n walls, also n^2 winding numbers, 2 s at most.
-std::int64_t drop_inner_walls(TriangleMesh& mesh);
+std::int64_t drop_inner_walls(TriangleMesh& mesh, const Pace& pace);
 
 }  // namespace argil::mesh

@@ -19,7 +19,10 @@
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
 
+#include "repair/close_soup.h"
+#include "repair/crumbs.h"
 #include "repair/inner_walls.h"
+#include "repair/library_call.h"
 #include "repair/loose_sheets.h"
 #include "repair/resolve_crossings.h"
 #include "repair/seams.h"
@@ -51,13 +54,15 @@ class Mend {
   bool cone_the_rest();
   Result<void> close();
   void part_where_touching();
-  bool resolve();
+  bool resolve(const Pace& pace);
   void bound_the_inside();
+  void drop_crumbs_left();
   Result<void> mend();
 
   const Pace pace_;
   const Thickening& thickening_;
   TriangleMesh mesh_;
+  TriangleMesh facing_;
   double size_ = 0.0;  ///< of the box of what triangles name
   MendReport report_;
 };
@@ -77,7 +82,7 @@ void Mend::join_seams() {
   report_.closing.dropped_triangles += drop_repeated(mesh_);
   split_at_junctions(near);
   report_.dropped_fins = drop_fins(mesh_);
-  report_.interior_faces += drop_inner_walls(mesh_);
+  report_.interior_faces += drop_inner_walls(mesh_, pace_.part(0.0, 0.1));
 }
 
 /// Vertices a little beside an edge split it too, the nearer ones first, while there are open
@@ -102,7 +107,7 @@ void Mend::split_at_junctions(double near) {
 /// would need as much surface as a part has, but for sheets that lie apart from all else, which go.
 bool Mend::cone_the_rest() {
   if (report_.closing.closed) return true;
-  report_.dropped_sheets = drop_loose_sheets(mesh_);
+  report_.dropped_sheets = drop_loose_sheets(mesh_, pace_.part(0.3, 0.3));
   TriangleMesh coned = mesh_;
   const std::vector<Triangle> cones = boundary_cones(coned.positions, mesh_.triangles);
   if (has_sheets(mesh_, coned.positions, cones)) return false;
@@ -117,13 +122,15 @@ bool Mend::cone_the_rest() {
 
 /// The first closing is the one that is reported; a later one closes what was opened meanwhile.
 Result<void> Mend::close() {
-  auto closed = close_mesh(mesh_);
+  auto closed = close_soup(mesh_, true);
   if (!closed) return closed.error();
   if (report_.closing.parts == 0) {
     closed.value().report.dropped_triangles += report_.closing.dropped_triangles;
     report_.closing = closed.value().report;
   }
   mesh_ = rounded_to_float(std::move(closed.value().mesh));
+  facing_ = mesh_;
+  facing_.triangles.resize(closed.value().given_triangles);
   return {};
 }
 
@@ -137,14 +144,15 @@ void Mend::part_where_touching() {
 }
 
 /// Cuts what crosses along the lines in which it does and leaves out what is inside. False where
-/// that would take too long.
-bool Mend::resolve() {
+/// that would take too long, or a library failed.
+bool Mend::resolve(const Pace& pace) {
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh_);
   mesh_ = only_triangles(mesh_, [&](std::size_t t) {
     return !std::binary_search(flat.begin(), flat.end(), static_cast<std::uint32_t>(t));
   });
   const auto pairs = self_intersections(mesh_, {});
-  std::optional<ResolvedCrossings> resolved = resolve_crossings(mesh_, pairs, pace_.part(0.3, 0.9));
+  std::optional<ResolvedCrossings> resolved;
+  is_done_by_library([&] { resolved = resolve_crossings(mesh_, pairs, pace); });
   if (!resolved) return false;
   report_.united_parts += resolved->united_parts;
   mesh_ = std::move(resolved->mesh);
@@ -157,20 +165,28 @@ bool Mend::resolve() {
 void Mend::bound_the_inside() {
   constexpr int kMostRounds = 8;
   constexpr double kSliver = 1e-4;  // of the diagonal, that a surface may move by
+  double done = 0.3;
   for (int round = 0; round < kMostRounds && !report_.verdict.printable; ++round) {
+    const double next = 0.5 * (done + 0.9);  // the first takes longest
+    const Pace pace = pace_.part(std::exchange(done, next), next);
     const MeshVerdict& is = report_.verdict;
     const bool only_touches =
         is.self_intersections + is.duplicate + is.degenerate == 0 && !is.manifold;
     if (only_touches) {
       part_where_touching();
       is_printable();
-    } else if (!resolve()) {
+    } else if (!resolve(pace)) {
       return;
     }
   }
   if (!report_.verdict.printable) {
     report_.verdict = check_and_collapse_folded(mesh_, kSliver * size_);
   }
+}
+
+void Mend::drop_crumbs_left() {
+  report_.dropped_crumbs = drop_crumbs(mesh_, facing_);
+  if (report_.dropped_crumbs > 0) is_printable();
 }
 
 /// All that changes no more than where the mesh is broken; the verdict says whether it did.
@@ -183,7 +199,10 @@ Result<void> Mend::mend() {
     mesh_ = rounded_to_float(std::move(mesh_));
   }
   if (auto closed = close(); !closed) return closed;
-  if (is_printable()) return {};
+  if (is_printable()) {
+    drop_crumbs_left();
+    return {};
+  }
   if (!report_.closing.closed && is_open_sheets(mesh_)) {
     return Error{ErrorKind::bad_input,
                  "the mesh encloses nothing: it is flat or an open sheet; give it a thickness with "
@@ -193,12 +212,12 @@ Result<void> Mend::mend() {
   pace_.at(0.3);
   if (cone_the_rest()) bound_the_inside();
   if (!report_.verdict.printable && !report_.verdict.manifold) part_where_touching();
-  is_printable();
+  if (is_printable()) drop_crumbs_left();
   return {};
 }
 
 Result<MendedMesh> Mend::run() {
-  if (is_printable()) return MendedMesh{std::move(mesh_), std::move(report_)};
+  if (is_printable()) return MendedMesh{std::move(mesh_), {}, std::move(report_)};
   const bool is_usable = !report_.verdict.marks.empty();
   if (!is_usable) {
     return Error{
@@ -208,7 +227,7 @@ Result<MendedMesh> Mend::run() {
   }
   size_ = length(used_bounds(mesh_).size());
   if (auto mended = mend(); !mended) return mended.error();
-  return MendedMesh{std::move(mesh_), std::move(report_)};
+  return MendedMesh{std::move(mesh_), std::move(facing_), std::move(report_)};
 }
 
 }  // namespace

@@ -41,8 +41,11 @@ class Resolution {
   }
 
   TriangleMesh boundary() const {
-    return only_triangles(
-        faces_, [&](std::size_t f) { return patches_[patch_of_.of_triangle[f]].is_boundary; });
+    return only_triangles(faces_, [&](std::size_t f) { return is_boundary(f); });
+  }
+  /// Faces are numbered as the arrangement has them.
+  bool is_boundary(std::size_t face) const {
+    return patches_[patch_of_.of_triangle[face]].is_boundary;
   }
 
  private:
@@ -121,14 +124,25 @@ std::size_t most_line_crossings(const TriangleMesh& mesh, const std::vector<Tria
   return crossings;
 }
 
-/// Parts of `mesh` that are one with others after what crosses is cut.
-std::int64_t united(const TriangleMesh& mesh, const std::vector<TrianglePair>& pairs) {
+/// Parts of `mesh` that are one with others after what crosses is cut, or that nothing crosses but
+/// others enclose.
+std::int64_t united(const TriangleMesh& mesh, const std::vector<TrianglePair>& pairs,
+                    const Resolution& resolution) {
   const EdgeTable edges(mesh);
   const MeshParts parts = mesh_parts(mesh, edges, false);
   DisjointSets sets(parts.count);
-  for (const auto& [a, b] : pairs) sets.unite(parts.of_triangle[a], parts.of_triangle[b]);
+  std::vector<bool> meets(mesh.triangles.size(), false);
+  for (const auto& [a, b] : pairs) {
+    sets.unite(parts.of_triangle[a], parts.of_triangle[b]);
+    meets[a] = meets[b] = true;
+  }
+  std::vector<bool> is_left(parts.count, false);
+  std::size_t face = 0;  // the arrangement has those that nothing touches first
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (meets[t] || resolution.is_boundary(face++)) is_left[parts.of_triangle[t]] = true;
+  }
   std::int64_t gone = 0;
-  for (std::uint32_t n = 0; n < parts.count; ++n) gone += sets.find(n) != n ? 1 : 0;
+  for (std::uint32_t n = 0; n < parts.count; ++n) gone += sets.find(n) != n || !is_left[n] ? 1 : 0;
   return gone;
 }
 
@@ -148,7 +162,7 @@ std::optional<ResolvedCrossings> resolve_crossings(const TriangleMesh& mesh,
     const auto& [a, b, c] = rounded.triangles[t];
     return a != b && b != c && c != a;
   };
-  return ResolvedCrossings{only_triangles(rounded, is_triangle), united(mesh, meeting)};
+  return ResolvedCrossings{only_triangles(rounded, is_triangle), united(mesh, meeting, resolution)};
 }
 
 }  // namespace argil::mesh

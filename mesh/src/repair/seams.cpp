@@ -13,6 +13,7 @@
 
 #include "argil/mesh/compact.h"
 #include "argil/mesh/edges.h"
+#include "argil/mesh/triangle_geometry.h"
 
 #include "topology/point_grid.h"
 #include "topology/repeated_triangles.h"
@@ -358,11 +359,8 @@ std::vector<Sheet> sheets_of(const TriangleMesh& mesh, const EdgeTable& edges,
                              const MeshParts& parts) {
   std::vector<Sheet> sheets(parts.count);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3& p = mesh.positions[a];
     if (parts.of_triangle[t] == kNoPart) continue;
-    sheets[parts.of_triangle[t]].area +=
-        0.5 * length(cross(mesh.positions[b] - p, mesh.positions[c] - p));
+    sheets[parts.of_triangle[t]].area += triangle_area(corners_of(mesh, t));
   }
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto uses = edges.uses(e);

@@ -36,6 +36,37 @@ TEST(RepairArena, SelectionIsValidAndLossesAreTold) {
   }
 }
 
+/// Rims that belong together and are far apart: a lid on each would stay within, and nothing say
+/// so.
+TEST(RepairArena, HalvesThatGapeOrOverlapBecomeOne) {
+  const Say quiet = [](const std::string&) {};
+  ArenaOptions options = selection();
+  options.kinds = {"cracks", "overlapping_patches"};
+  options.strengths = {4};
+  options.models_each = 3;
+  options.limit = 0;
+  const std::vector<Row> rows = run_arena(broken_meshes(options, quiet), options, quiet);
+  ASSERT_GE(rows.size(), 4U);
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.kind + "_" + row.model + ": " + row.judged.why);
+    EXPECT_TRUE(row.is_right());
+    EXPECT_EQ(row.attempt.status, 0);
+  }
+}
+
+TEST(RepairArena, RowsAreReadAsTheyAreWritten) {
+  Row row{"argil", "noise", "ball", 2, 17, {}, {}};
+  row.judged.valid = true;
+  row.judged.why = "a, b";
+  row.attempt.status = 1;
+  row.attempt.names_a_place = true;
+  row.attempt.cpu_s = 0.25;
+  const std::vector<Row> read = rows_of("# when and where\n" + csv_of({row, row}));
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(table_of(read), table_of({row, row}));
+  EXPECT_FALSE(read[1].is_silent());
+}
+
 TEST(RepairArena, JudgeTellsAWrongRepairFromARightOne) {
   const Say quiet = [](const std::string&) {};
   ArenaOptions options;

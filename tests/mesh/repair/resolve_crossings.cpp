@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -75,6 +76,33 @@ TEST(ResolveCrossings, DropsWhatLiesWithin) {
   const MendedMesh result = mended(test::joined(outer, box_between({4, 4, 4}, {9, 9, 9})));
   EXPECT_EQ(result.mesh.triangles.size(), 12U);
   EXPECT_EQ(result.report.verdict.volume_mm3, 8000.0);
+  EXPECT_EQ(result.report.united_parts, 1);
+}
+
+/// Two cavities with a wall of no thickness between them, whose sides are cut along other
+/// diagonals.
+TEST(ResolveCrossings, CavitiesWithAFaceInCommonStayHollow) {
+  TriangleMesh right = box_between({5, 2, 2}, {8, 8, 8});
+  for (Vec3& p : right.positions) p.y = 10.0 - p.y;  // mirrored, and so inside out
+  const TriangleMesh cavities =
+      test::joined(test::inside_out(box_between({2, 2, 2}, {5, 8, 8})), right);
+  const MendedMesh result = mended(test::joined(box_between({0, 0, 0}, {10, 10, 10}), cavities));
+  EXPECT_EQ(result.report.verdict.cavities, 1);
+  EXPECT_EQ(result.report.verdict.volume_mm3, 1000.0 - 6.0 * 6.0 * 6.0);
+}
+
+/// Rounding makes them cross anew, so that there are several rounds.
+TEST(ResolveCrossings, ProgressNeverGoesBack) {
+  double last = 0.0;
+  const Progress tell = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    return true;
+  };
+  TriangleMesh turned = test::ball_mesh(10.0, 3);
+  for (Vec3& p : turned.positions) p = {0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z};
+  ASSERT_TRUE(mend_mesh(test::joined(test::ball_mesh(10.0, 3), turned), {}, tell));
+  EXPECT_GT(last, 0.6);  // where the second round begins
 }
 
 /// In whole millimetres, so that faces lie on one another, edges in faces and corners on edges, and

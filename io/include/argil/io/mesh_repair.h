@@ -26,9 +26,9 @@ struct RepairOptions {
   mesh::Thickening thickening = {};  ///< of sheets; by default none
 };
 
-struct LostPlace {
+struct RepairPlace {
   Vec3 at_mm;
-  double distance_mm = 0.0;  ///< of the result from there
+  double distance_mm = 0.0;  ///< of the result from what was given there, or the other way round
 };
 
 /// What of the given surface is neither within a tolerance of the result nor inside it, where parts
@@ -40,9 +40,25 @@ struct RepairLoss {
   static constexpr double kMostTolerances = 2.0;
 
   double tolerance_mm = 0.0;
-  double share = 0.0;             ///< of the given area
-  std::int64_t parts = 0;         ///< of which next to nothing is left
-  std::vector<LostPlace> places;  ///< the farthest first, at most 10
+  double share = 0.0;               ///< of the given area
+  std::int64_t parts = 0;           ///< of which next to nothing is left
+  std::vector<RepairPlace> places;  ///< the farthest first, at most 10
+  std::int64_t samples = 0;
+  /// Between the result and given surface that lies within it, nearer than the tolerance: where
+  /// patches lie on one another, which of them was meant is a guess. Where this is more than
+  /// 0.5 % of the volume and nothing else is lost, `places` has its deepest.
+  double covered_mm3 = 0.0;
+};
+
+/// What of the result nobody gave: surface farther than a tolerance from all that was given, where
+/// that does not tell of a surface either. The winding number of what was given is 1/2 on a lid
+/// that closes an opening; where it is below 1/4 or above 3/4 the lid is at the wrong place. Found
+/// by samples, as what is lost is. Of a level set so is what is farther than
+/// RepairLoss::kMostTolerances, wherever it is.
+struct RepairGuess {
+  double tolerance_mm = 0.0;
+  double share = 0.0;               ///< of the area of the result
+  std::vector<RepairPlace> places;  ///< the farthest first, at most 10
   std::int64_t samples = 0;
 };
 
@@ -55,14 +71,18 @@ struct RepairReport : mesh::MendReport {
   double max_change_mm = 0.0;
   double max_change_slack_mm = 0.0;  ///< by how much that may be too much
   RepairLoss loss;
+  RepairGuess guess;
   Vec3 given_size_mm;  ///< of the input's bounding box
   /// What the input encloses; nothing where it is open, crosses itself or faces both ways.
   std::optional<double> given_volume_mm3;
 
   /// Whether a part, more than RepairLoss::kMostShare of the area or as much of the volume is gone,
-  /// or any place is farther off than RepairLoss::kMostTolerances, or the level set has surface so
-  /// far from any that was given.
+  /// or any place is farther off than RepairLoss::kMostTolerances, through a level set than one,
+  /// or more than 0.5 % of the volume is covered.
   bool lost_too_much() const noexcept;
+  bool covered_too_much() const noexcept;
+  /// Whether there is any such place.
+  bool guessed_too_much() const noexcept { return !guess.places.empty(); }
 };
 
 struct RepairedMesh {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "argil/core/result.h"
@@ -24,6 +25,8 @@ struct CloseReport {
 
 struct ClosedMesh {
   TriangleMesh mesh;
+  /// So many of its triangles, the first, were given; the others fill holes.
+  std::size_t given_triangles = 0;
   CloseReport report;
 };
 

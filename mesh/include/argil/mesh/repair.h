@@ -21,6 +21,7 @@ struct MendReport {
   std::int64_t dropped_fins = 0;     ///< triangles that stand on a closed surface
   std::int64_t coned_holes = 0;      ///< that touched or crossed: closed by cones, where w decides
   std::int64_t dropped_sheets = 0;   ///< open parts beside solids that enclose nothing
+  std::int64_t dropped_crumbs = 0;   ///< flat, cut off by mending: less than 1e-6 of the volume
   std::int64_t thickened_sheets = 0;
   std::int64_t parted_vertices = 0;  ///< where surfaces only touched: drawn apart by `gap_mm`
   double gap_mm = 0.0;
@@ -31,6 +32,10 @@ struct MendReport {
 
 struct MendedMesh {
   TriangleMesh mesh;
+  /// The given triangles, joined along their rims and turned to face as those of `mesh` do, without
+  /// what was added to close them: their winding number is what was given of an inside. Empty where
+  /// nothing changed.
+  TriangleMesh facing;
   MendReport report;
 };
 

@@ -30,6 +30,7 @@ inline Vec3 middle(const Corners& c) noexcept { return (c[0] + c[1] + c[2]) / 3.
 /// may make it zero for a sliver and not zero for a triangle without area: degenerate_triangles is
 /// what tells.
 inline Vec3 area_normal(const Corners& c) noexcept { return cross(c[1] - c[0], c[2] - c[0]); }
+inline double triangle_area(const Corners& c) noexcept { return 0.5 * length(area_normal(c)); }
 
 /// In the unit of the corners; one square root.
 inline double longest_side(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
