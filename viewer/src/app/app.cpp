@@ -26,6 +26,15 @@ namespace fs = std::filesystem;
 
 constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
 constexpr double kRestS = 0.005;      // between frames that show nothing new
+// How long a window that shows all there is waits for something to happen. A signal does not end
+// the wait, so it ends by itself four times a second, and no frame is made.
+constexpr double kLookUpS = 0.25;
+constexpr int kFramesToSettle = 3;  // of panels after an event: a list opens in the second frame
+// Between frames of what moves by itself: a hand or a stroke, a bar or a slider that is held, the
+// mark of a text field, and an answer of the desktop.
+constexpr double kLiveS = 1.0 / 60.0;
+constexpr double kBarS = 0.05;
+constexpr double kBlinkS = 0.2;
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
@@ -53,7 +62,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       home_(std::move(home)),
       window_(std::move(window)),
       renderer_(std::move(renderer)),
-      document_({home_}),
+      document_({home_, [] { Window::wake(); }}),
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
@@ -186,17 +195,17 @@ bool App::has_ended() {
 
 Result<void> App::frame() {
   if (auto played = play_script(); !played) return played;
-  // An idle window waits for events; one that works draws as often as it can.
-  const bool is_idle = window_->now_s() > busy_until_s_ && !has_script_ && options_.frames == 0;
-  const double rest_s = is_at_rest_ ? kRestS : 0.0;
-  const std::vector<InputEvent> events = window_->poll(is_idle ? 0.1 : rest_s);
+  const std::vector<InputEvent> events = window_->poll(wait_s());
   const double now = window_->now_s();
   const double start = now;
+  const bool is_due = !waits_for_events() || now >= next_frame_s_;
+  const bool has_news = !events.empty() || document_.has_news() || window_->is_exposed();
+  if (!is_due && !has_news) return {};
+  if (has_news) frames_to_settle_ = kFramesToSettle;
   ui_.camera.resize(window_->width(), window_->height());
   take_events(events);
   gestures_.tick(now);
   take_news();
-  if (!events.empty() || !shown_inputs_s_.empty() || ui_.task.is_running) busy_until_s_ = now + 0.5;
   follow_camera();
   ask_for_hover();
   cut_slice();
@@ -213,6 +222,8 @@ Result<void> App::frame() {
   last_s_ = now;
   draw_panels();
   const bool has_new_panels = gui_.end_frame();
+  // What fades or was laid out anew goes on.
+  frames_to_settle_ = std::max(frames_to_settle_ - 1, has_new_panels ? 1 : 0);
   keep_settings();
   const std::int64_t former_pictures = renderer_->counts().pictures;
   if (auto shown = show(picture, has_new_panels); !shown) return shown;
@@ -224,7 +235,35 @@ Result<void> App::frame() {
   frame_ms_.push_back(1e3 * (end - start));
   const RendererCounts counts = renderer_->counts();
   if (counts.pictures != former_pictures) last_frame_ = {frame_ms_.back(), counts};
+  next_frame_s_ = next_frame_s(now);
   return {};
+}
+
+/// A script and a number of frames go on whatever happens.
+bool App::waits_for_events() const { return !has_script_ && options_.frames == 0; }
+
+/// How long the next frame may wait for an event.
+double App::wait_s() const {
+  const double rest_s = is_at_rest_ ? kRestS : 0.0;
+  if (!waits_for_events()) return rest_s;
+  return std::clamp(next_frame_s_ - window_->now_s(), rest_s, kLookUpS);
+}
+
+/// When there is something new to see though nothing happens until then.
+double App::next_frame_s(double now_s) const {
+  if (frames_to_settle_ > 0 || gui_.has_waiting_input() || ui_.turntable_left > 0) return now_s;
+  double next_s = log_.next_s();
+  const auto every = [&](bool is_wanted, double s) {
+    if (is_wanted) next_s = std::min(next_s, now_s + s);
+  };
+  every(haptics_->is_running() || gestures_.is_stroke_open(), kLiveS);
+  every(ui_.task.is_running || gui_.is_held() || files_.is_waiting(), kBarS);
+  every(gui_.is_typed_into(), kBlinkS);
+  // The last turn of the camera came too soon after the one before to be told of.
+  if (!gestures_.is_stroke_open() && !is_view_told()) {
+    next_s = std::min(next_s, view_sent_s_ + kViewEveryS);
+  }
+  return next_s;
 }
 
 /// Draws the picture and the panels into the window; nothing where the window shows them already. A
@@ -354,15 +393,17 @@ void App::note_recent() {
 /// drawn, so that nothing but the stroke changes.
 void App::follow_camera() {
   if (gestures_.is_stroke_open()) return;
-  const DisplayView view = ui_.camera.display_view();
-  const bool is_same = view.eye_mm == shown_view_.eye_mm &&
-                       view.pixel_rad == shown_view_.pixel_rad &&
-                       view.pixel_mm == shown_view_.pixel_mm;
   const double now = window_->now_s();
-  if (is_same || now - view_sent_s_ < kViewEveryS) return;
-  shown_view_ = view;
+  if (is_view_told() || now - view_sent_s_ < kViewEveryS) return;
+  shown_view_ = ui_.camera.display_view();
   view_sent_s_ = now;
-  document_.look(view);
+  document_.look(shown_view_);
+}
+
+bool App::is_view_told() const {
+  const DisplayView view = ui_.camera.display_view();
+  return view.eye_mm == shown_view_.eye_mm && view.pixel_rad == shown_view_.pixel_rad &&
+         view.pixel_mm == shown_view_.pixel_mm;
 }
 
 /// The question what the brush would feel, where the force is shown without a device.
@@ -518,7 +559,6 @@ void App::tick_haptics(double now_s) {
   }
   ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim &&
                     ui_.haptics.scene == "clay";
-  if (haptics_->is_running()) busy_until_s_ = now_s + 0.5;
 }
 
 /// What the hand feels; without a device, what the brush under the pointer would feel.
@@ -677,7 +717,6 @@ Result<void> App::turn_table() {
   }
   // A full turn is twice the drag of half a turn.
   ui_.camera.orbit(2.0 * window_->width() / kTurntableFrames, 0.0);
-  busy_until_s_ = window_->now_s() + 0.5;
   if (ui_.turntable_left == 0) tell({Notice::Kind::done, "saved " + in_quotes(file.string())});
   return {};
 }

@@ -53,6 +53,10 @@ void bind_vertices(const GlBuffer& vertices, const GlBuffer& triangles) {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles.name());
 }
 
+Vec3 vec_of(const std::array<float, 3>& p) noexcept {
+  return {double{p[0]}, double{p[1]}, double{p[2]}};
+}
+
 /// Whether a box lies wholly on the outer side of one plane.
 bool is_outside(const std::array<float, 3>& center, const std::array<float, 3>& half,
                 std::span<const BoundPlane> bounds) {
@@ -66,7 +70,45 @@ bool is_outside(const std::array<float, 3>& center, const std::array<float, 3>& 
   return false;
 }
 
+/// Whether a lens sees all triangles of a block from behind. Source: the cone test of meshoptimizer
+/// (meshopt_computeClusterBounds), about the box's middle. A cone that is almost seen from the side
+/// is kept: facing is worked out in float.
+bool is_turned_away(const NormalCone& cone, const std::array<float, 3>& center,
+                    const std::array<float, 3>& half, const Lens& lens) {
+  constexpr double kMargin = 1e-3;
+  if (cone.sine > 1.0F) return false;
+  const Vec3 axis = vec_of(cone.axis);
+  if (lens.is_parallel) return dot(-lens.back, axis) >= double{cone.sine} + kMargin;
+  const Vec3 away = vec_of(center) - lens.eye_mm;
+  return dot(away, axis) >= (double{cone.sine} + kMargin) * length(away) + length(vec_of(half));
+}
+
 }  // namespace
+
+NormalCone cone_of(const BlockMesh& block) {
+  std::vector<Vec3> normals;
+  normals.reserve(block.triangles.size());
+  Vec3 sum;
+  for (const Triangle& triangle : block.triangles) {
+    const Vec3 a = vec_of(block.vertices[triangle[0]].position_mm);
+    const Vec3 b = vec_of(block.vertices[triangle[1]].position_mm);
+    const Vec3 c = vec_of(block.vertices[triangle[2]].position_mm);
+    const Vec3 across = cross(b - a, c - a);
+    const double size = length(across);
+    if (!(size > 0.0)) continue;  // without an area it is not seen from any side
+    normals.push_back(across / size);
+    sum += normals.back();
+  }
+  NormalCone cone;
+  const Vec3 axis = normalized(sum);
+  double least = 1.0;
+  for (const Vec3& normal : normals) least = std::min(least, dot(axis, normal));
+  constexpr double kLeastCosine = 0.1;  // a wider cone is hardly ever turned away
+  if (normals.empty() || !(least > kLeastCosine)) return cone;
+  cone.axis = {static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z)};
+  cone.sine = static_cast<float>(std::sqrt(std::max(0.0, 1.0 - least * least)));
+  return cone;
+}
 
 std::size_t GlBlocks::IdHash::operator()(const BlockId& id) const noexcept {
   auto hash = static_cast<std::uint64_t>(id.level);
@@ -105,8 +147,18 @@ Result<void> GlBlocks::put(const BlockMesh& block) {
     slot.center_mm[a] = static_cast<float>(center[a]);
     slot.half_mm[a] = static_cast<float>(half[a]);
   }
+  slot.cone = cone_of(block);
   upload(page, slot, block);
   return {};
+}
+
+std::optional<Box3> GlBlocks::bounds_of(const BlockId& id) const {
+  const auto known = locations_.find(id);
+  if (known == locations_.end()) return std::nullopt;
+  const Slot& slot = known->second.page->slots[known->second.slot];
+  const Vec3 center = vec_of(slot.center_mm);
+  const Vec3 half = vec_of(slot.half_mm);
+  return Box3{center - half, center + half};
 }
 
 /// The block's slot, with room for it.
@@ -224,17 +276,17 @@ void GlBlocks::clear() {
   memory_bytes_ = 0;
 }
 
-std::int64_t GlBlocks::choose(std::span<const BoundPlane> bounds) {
+std::int64_t GlBlocks::choose(const BlockChoice& choice) {
   std::int64_t indices = 0;
   for (const auto& page : pages_) {
-    choose_in(*page, bounds);
+    choose_in(*page, choice);
     for (const Batch& batch : page->batches)
       for (const int count : batch.counts) indices += count;
   }
   return indices / 3;
 }
 
-void GlBlocks::choose_in(Page& page, std::span<const BoundPlane> bounds) {
+void GlBlocks::choose_in(Page& page, const BlockChoice& choice) {
   // The vectors keep their memory from frame to frame.
   for (Batch& batch : page.batches) {
     batch.counts.clear();
@@ -242,7 +294,11 @@ void GlBlocks::choose_in(Page& page, std::span<const BoundPlane> bounds) {
     batch.base_vertices.clear();
   }
   for (const Slot& slot : page.slots) {
-    if (is_outside(slot.center_mm, slot.half_mm, bounds)) continue;
+    if (is_outside(slot.center_mm, slot.half_mm, choice.bounds)) continue;
+    if (choice.outside_of != nullptr &&
+        is_turned_away(slot.cone, slot.center_mm, slot.half_mm, *choice.outside_of)) {
+      continue;
+    }
     const std::size_t number =
         2 * static_cast<std::size_t>(slot.id.level) + (slot.has_mask ? 1 : 0);
     if (number >= page.batches.size()) page.batches.resize(number + 1);

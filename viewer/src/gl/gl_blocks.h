@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -14,6 +16,7 @@
 
 #include "gl/gl_object.h"
 #include "gl/gl_ranges.h"
+#include "picture/camera.h"
 #include "picture/renderer.h"
 
 namespace argil::viewer {
@@ -23,6 +26,21 @@ struct BoundPlane {
   Vec3 normal;
   double offset = 0.0;
 };
+
+/// Which blocks a draw shows.
+struct BlockChoice {
+  std::vector<BoundPlane> bounds;  ///< those that are not wholly outside of a plane
+  /// Those with a triangle that this lens sees from outside; null: also the others.
+  const Lens* outside_of = nullptr;
+};
+
+/// The directions in which a block's triangles look: all within a cone, if that is narrow enough to
+/// tell anything.
+struct NormalCone {
+  std::array<float, 3> axis{};  ///< unit
+  float sine = 2.0F;            ///< of half its opening; above 1: any direction
+};
+NormalCone cone_of(const BlockMesh& block);
 
 /// The clay's blocks on the graphics card, in pages: vertex and index buffers that many blocks
 /// fraction, so that a page is drawn by few calls. The mask has a buffer of their own, which a
@@ -41,13 +59,15 @@ class GlBlocks {
   void drop(const BlockId& id);
   void clear();
 
-  /// Chooses what the next draw shows: blocks that are not wholly outside of a plane. Some 20 ns a
-  /// block. Returns how many triangles they have.
-  std::int64_t choose(std::span<const BoundPlane> bounds);
+  /// Chooses what the next draw shows. Some 20 ns a block. Returns how many triangles they have.
+  std::int64_t choose(const BlockChoice& choice);
 
   /// Draws what was chosen, level after level, the finest first; calls `begin` with the number of
   /// each before. A call of OpenGL for each page and level, two where a page has masked blocks.
   void draw(const std::function<void(int level)>& begin) const;
+
+  /// Where a block lies; nothing where it is not there.
+  std::optional<Box3> bounds_of(const BlockId& id) const;
 
   std::int64_t blocks() const noexcept { return static_cast<std::int64_t>(locations_.size()); }
   std::int64_t triangles() const noexcept { return triangles_; }
@@ -60,6 +80,7 @@ class GlBlocks {
     BlockId id;
     std::array<float, 3> center_mm{};
     std::array<float, 3> half_mm{};
+    NormalCone cone;
     std::uint32_t first_vertex = 0;
     std::uint32_t vertex_room = 0;
     std::uint32_t first_triangle = 0;
@@ -98,7 +119,7 @@ class GlBlocks {
   Result<Page*> page_with_room(std::uint32_t vertex_room, std::uint32_t triangle_room);
   Result<void> add_mask(Page& page);
   void upload(Page& page, const Slot& slot, const BlockMesh& block);
-  void choose_in(Page& page, std::span<const BoundPlane> bounds);
+  static void choose_in(Page& page, const BlockChoice& choice);
 
   ObjectCount& count_;
   std::vector<std::unique_ptr<Page>> pages_;

@@ -90,6 +90,7 @@ struct Picture {
   Shading shading = Shading::matcap;
   bool has_wires = false;     ///< the triangles' edges over the shading
   bool has_occlusion = true;  ///< ambient occlusion (Shading::plain)
+  bool is_moving = false;     ///< the camera turns: the clay may be drawn more coarsely
   std::vector<RingMark> rings;
   std::vector<ArrowMark> arrows;
   std::vector<PlaneMark> planes;
@@ -108,14 +109,17 @@ struct DepthMap {
 };
 
 struct RendererCounts {
-  std::int64_t pictures = 0;  ///< drawn so far; not those that were only shown again
+  std::int64_t pictures = 0;        ///< drawn so far; not those that were only shown again
+  std::int64_t whole_pictures = 0;  ///< of them those for which all of the clay was drawn
   std::int64_t blocks = 0;
-  std::int64_t triangles = 0;        ///< of all blocks
-  std::int64_t drawn_triangles = 0;  ///< in the last picture: blocks outside of it are left out
-  std::int64_t uploaded_bytes = 0;   ///< so far
-  std::int64_t memory_bytes = 0;     ///< on the graphics card, for blocks
-  std::int64_t objects = 0;          ///< OpenGL objects that live
-  std::int64_t errors = 0;           ///< that OpenGL reported (debug contexts only)
+  std::int64_t triangles = 0;  ///< of all blocks
+  /// When the clay was drawn last: blocks that cannot be seen are left out, and where only some
+  /// changed, those that lie elsewhere in the picture.
+  std::int64_t drawn_triangles = 0;
+  std::int64_t uploaded_bytes = 0;  ///< so far
+  std::int64_t memory_bytes = 0;    ///< on the graphics card, for blocks
+  std::int64_t objects = 0;         ///< OpenGL objects that live
+  std::int64_t errors = 0;          ///< that OpenGL reported (debug contexts only)
 };
 
 /// Draws blocks of clay and what belongs to them. The one place that knows a graphics interface.
