@@ -79,7 +79,7 @@ class RendererPartsGl : public RendererScene {
 
 TEST_F(RendererPartsGl, MarksThatMoveDrawNoClay) {
   renderer_.reset();
-  auto made = viewer::make_gl_renderer_with(4);
+  auto made = viewer::make_gl_renderer_with({4, false});
   ASSERT_TRUE(made.ok()) << made.error().message;
   renderer_ = std::move(made).value();
   take_all();
@@ -139,6 +139,35 @@ TEST_F(RendererPartsGl, ADabThatMeetsTheEyeOrWhatIsAroundItDrawsAllOfIt) {
   const Image near = draw({});
   take_all();
   EXPECT_EQ(count_different(draw({}), near), 0U);
+}
+
+TEST_F(RendererPartsGl, AMovingPictureHasFewerTrianglesAndNoHole) {
+  renderer_.reset();
+  auto made = viewer::make_gl_renderer_with({0, true});
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  renderer_ = std::move(made).value();
+  take_all();
+  Picture picture;
+  const Image still = draw(picture);
+  const auto fine = renderer_->read_depth().depth_mm;
+  const std::int64_t triangles = renderer_->counts().drawn_triangles;
+  picture.is_moving = true;
+  draw(picture);
+  const auto coarse = renderer_->read_depth().depth_mm;
+  EXPECT_LT(renderer_->counts().drawn_triangles, triangles / 2);
+  // Where clay is on all sides of a pixel, there is clay in it, at about the same depth.
+  std::size_t inside = 0;
+  for (std::size_t n = 3 * kWidth; n + 3 * kWidth < fine.size(); ++n) {
+    bool is_inside = true;
+    for (const std::ptrdiff_t step : {-3 * kWidth, -3, 0, 3, 3 * kWidth})
+      is_inside = is_inside && std::isfinite(fine[n + static_cast<std::size_t>(step)]);
+    if (!is_inside) continue;
+    ++inside;
+    ASSERT_NEAR(coarse[n], fine[n], 1.5) << n;
+  }
+  EXPECT_GT(inside, 10'000U);
+  picture.is_moving = false;
+  EXPECT_EQ(count_different(draw(picture), still), 0U);
 }
 
 TEST_F(RendererPartsGl, WhatLooksAwayIsLeftOut) {

@@ -35,6 +35,10 @@ constexpr int kFramesToSettle = 3;  // of panels after an event: a list opens in
 constexpr double kLiveS = 1.0 / 60.0;
 constexpr double kBarS = 0.05;
 constexpr double kBlinkS = 0.2;
+// While the camera turns, and so long after, a clay that takes longer to draw than this is drawn
+// with fewer triangles. A whole frame of a screen that is waited for takes 17 ms.
+constexpr double kMotionS = 0.15;
+constexpr double kFluentMs = 25.0;
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
@@ -215,6 +219,8 @@ Result<void> App::frame() {
     most_shown_n_ = std::max(most_shown_n_, length(shown->force_n));
   }
   if (auto turned = turn_table(); !turned) return turned;
+  note_last_frame();
+  note_motion(now);
   const Picture picture = this->picture();
   gui_.begin_frame(now - last_s_);
   // take_events() went by the panels of the frame before, and another event may not follow.
@@ -225,7 +231,7 @@ Result<void> App::frame() {
   // What fades or was laid out anew goes on.
   frames_to_settle_ = std::max(frames_to_settle_ - 1, has_new_panels ? 1 : 0);
   keep_settings();
-  const std::int64_t former_pictures = renderer_->counts().pictures;
+  const RendererCounts former = renderer_->counts();
   if (auto shown = show(picture, has_new_panels); !shown) return shown;
 
   const double end = window_->now_s();
@@ -234,7 +240,10 @@ Result<void> App::frame() {
   }
   frame_ms_.push_back(1e3 * (end - start));
   const RendererCounts counts = renderer_->counts();
-  if (counts.pictures != former_pictures) last_frame_ = {frame_ms_.back(), counts};
+  if (counts.pictures != former.pictures) last_frame_ = {frame_ms_.back(), counts};
+  if (counts.whole_pictures != former.whole_pictures && !picture.is_moving) {
+    is_fluent_ = frame_ms_.back() < kFluentMs;
+  }
   next_frame_s_ = next_frame_s(now);
   return {};
 }
@@ -259,6 +268,7 @@ double App::next_frame_s(double now_s) const {
   every(haptics_->is_running() || gestures_.is_stroke_open(), kLiveS);
   every(ui_.task.is_running || gui_.is_held() || files_.is_waiting(), kBarS);
   every(gui_.is_typed_into(), kBlinkS);
+  if (is_moving()) next_s = std::min(next_s, moved_s_ + kMotionS);
   // The last turn of the camera came too soon after the one before to be told of.
   if (!gestures_.is_stroke_open() && !is_view_told()) {
     next_s = std::min(next_s, view_sent_s_ + kViewEveryS);
@@ -273,7 +283,6 @@ double App::next_frame_s(double now_s) const {
 Result<void> App::show(const Picture& picture, bool has_new_panels) {
   const int width = window_->width();
   const int height = window_->height();
-  note_last_frame();
   const bool is_exposed = window_->take_exposed();
   is_at_rest_ = !is_exposed && !has_new_panels && shots_.empty() && !ui_.wants_screenshot &&
                 renderer_->holds(picture, width, height);
@@ -437,7 +446,27 @@ void App::ask_for_hover() {
   document_.ask(ray, touch);
 }
 
+/// Notes whether the camera is another one than before, by any hand.
+void App::note_motion(double now_s) {
+  const Lens lens = ui_.camera.lens({});
+  if (std::exchange(seen_lens_, lens) != lens) moved_s_ = now_s;
+  in_motion_ = now_s - moved_s_ < kMotionS;
+}
+
+/// Whether fewer triangles do for this picture. One that is stored has all of them.
+bool App::is_moving() const {
+  return in_motion_ && !is_fluent_ && shots_.empty() && !ui_.wants_screenshot;
+}
+
+/// Of the clay with all its triangles, also while the camera still turns.
 SurfaceProbe App::probe(const Camera::Pixel& pixel) {
+  Picture picture = this->picture();
+  if (std::exchange(picture.is_moving, false)) {
+    moved_s_ = -kMotionS;
+    in_motion_ = false;
+    // Where it cannot be drawn nothing is under the pointer.
+    static_cast<void>(renderer_->draw(picture, 0, window_->width(), window_->height()).ok());
+  }
   const WindowPart part = part_at(ui_.camera, ui_.show.is_stereo, pixel);
   return {renderer_->read_depth(part.eye), part};
 }
@@ -454,6 +483,7 @@ Picture App::picture() const {
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;
+  picture.is_moving = is_moving();
   add_rings(picture);
   add_force(picture);
   add_path(picture);
@@ -702,6 +732,7 @@ Result<void> App::turn_table() {
     for (turntable_ = 1; fs::exists(file_of(0), error);) ++turntable_;
   }
   Picture bare = picture();
+  bare.is_moving = false;
   bare.rings.clear();
   bare.arrows.clear();
   bare.planes.clear();

@@ -66,6 +66,8 @@ class App {
   void take_over_path(bool had_clay);
   void tick_haptics(double now_s);
   void cut_slice();
+  void note_motion(double now_s);
+  bool is_moving() const;
   SurfaceProbe probe(const Camera::Pixel& pixel);
   void note_last_frame();
   Result<void> take_shots();
@@ -107,6 +109,10 @@ class App {
   double last_s_ = 0.0;               ///< when the last frame began
   std::pair<int, int> refused_size_;  ///< of the last picture, if the driver could not draw it
   bool is_at_rest_ = false;           ///< the last frame had nothing new to show
+  Lens seen_lens_;                    ///< of the last frame
+  double moved_s_ = 0.0;              ///< when it was last another one
+  bool in_motion_ = false;            ///< that was just now
+  bool is_fluent_ = true;             ///< all of the clay is drawn in less time than a turn needs
   int frames_to_settle_ = 0;          ///< that follow each other without waiting for events
   double next_frame_s_ = 0.0;         ///< when one is due without an event
   std::int64_t framed_ = 0;           ///< ClayState::number of the clay that the camera has framed

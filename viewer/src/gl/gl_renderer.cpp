@@ -13,6 +13,7 @@
 #include <optional>
 
 #include <epoxy/gl.h>
+#include <malloc.h>
 
 #include "gl/gl_blocks.h"
 #include "gl/gl_clay.h"
@@ -107,13 +108,13 @@ void reset_state() {
 class GlRenderer final : public Renderer {
  public:
   GlRenderer(std::unique_ptr<ObjectCount> count, std::unique_ptr<GlDebug> debug, Passes passes,
-             int samples)
+             const GlRendererOptions& options)
       : debug_(std::move(debug)),
         count_(std::move(count)),
         passes_(std::move(passes)),
-        blocks_(*count_),
-        targets_(*count_, samples) {
-    assert(samples >= 0);
+        blocks_(*count_, options.has_coarse),
+        targets_(*count_, options.samples) {
+    assert(options.samples >= 0);
   }
 
   Result<void> put(const BlockMesh& block) override {
@@ -245,7 +246,8 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
   const bool has_slice = is_drawable(picture.slice);
   const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
   // A cut shows the inside, which looks away.
-  drawn_triangles_ += blocks_.choose({bounds_of(eye, area, cut), has_slice ? nullptr : &eye.lens});
+  drawn_triangles_ += blocks_.choose(
+      {bounds_of(eye, area, cut), has_slice ? nullptr : &eye.lens, picture.is_moving});
   passes_.clay.draw(blocks_, picture, eye, cut);
   // Kept before the slice is drawn: strokes and occlusion are about the clay alone.
   targets_.keep_depth(area);
@@ -331,17 +333,31 @@ std::string text_of(GLenum name) {
   return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
-/// A software renderer takes four times as long for four samples.
-int samples_of_card() {
-  if (text_of(GL_RENDERER).find("llvmpipe") != std::string::npos) return 0;
+/// A software renderer asks for tens of megabytes in each frame and gives them back: they stay with
+/// the process, or every frame would begin with page faults (a fifth of its time at a million
+/// triangles).
+void keep_frame_memory() {
+#ifdef __GLIBC__
+  constexpr int kMostKept = 256 << 20;
+  mallopt(M_TRIM_THRESHOLD, kMostKept);
+  mallopt(M_MMAP_THRESHOLD, kMostKept / 4);
+#endif
+}
+
+bool is_software() { return text_of(GL_RENDERER).find("llvmpipe") != std::string::npos; }
+
+/// A software renderer takes four times as long for four samples, and cannot turn a large clay
+/// fluently in full detail, which a graphics card can.
+GlRendererOptions options_of_card() {
+  if (is_software()) return {0, true};
   GLint most = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  return std::min(kSamples, most);
+  return {std::min(kSamples, most), false};
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples) {
+Result<std::unique_ptr<Renderer>> make_gl_renderer_with(const GlRendererOptions& options) {
   constexpr int kLeastVersion = 33;  // as epoxy counts: ten times the version
   if (!epoxy_is_desktop_gl() || epoxy_gl_version() < kLeastVersion) {
     return Error{ErrorKind::device, "the viewer needs OpenGL 3.3 and this is " +
@@ -353,11 +369,12 @@ Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples) {
   auto passes = Passes::make(*count);
   if (!passes) return passes.error();
   return std::unique_ptr<Renderer>(std::make_unique<GlRenderer>(
-      std::move(count), std::move(debug), std::move(passes).value(), samples));
+      std::move(count), std::move(debug), std::move(passes).value(), options));
 }
 
 Result<std::unique_ptr<Renderer>> make_gl_renderer() {
-  return make_gl_renderer_with(samples_of_card());
+  if (is_software()) keep_frame_memory();
+  return make_gl_renderer_with(options_of_card());
 }
 
 }  // namespace argil::viewer
