@@ -524,7 +524,7 @@ TEST_F(ViewWindowGl, EveryPanelOpens) {
       "click Hollow with drains\nframes 2\nclick Stroke\nframes 2\nkey Ctrl+H\nkey Ctrl+M\n"
       "frames 2\nkey F1\nframes 2\nkey F1\nkey Ctrl+N\nframes 3\nclick Not now\n"
       "key Ctrl+W\nframes 3\nclick Hollow\nsettle\nkey Ctrl+E\nframes 3\nclick Close\n"
-      "key Ctrl+O\nframes 3\nclick No file\nframes 2\nclick Mask\nframes 2\n"
+      "key Ctrl+O\nframes 3\nclick Cancel\nframes 2\nclick Mask\nframes 2\n"
       "click Fill##mask\nsettle\nclick Device\nclick Device panel\nclick Feel\nframes 2\n"
       "key W\nkey Shift+W\nsettle\nkey Shift+Z\n"
       "frames 2\nkey Z\nframes 2\nkey Z\nframes 2\nkey Z\nframes 2\nkey Tab\nframes 2\n",

@@ -248,7 +248,7 @@ TEST_F(RendererBlocksGl, AHundredRenderersLeaveNoObject) {
     Picture picture;
     picture.shading = viewer::Shading::plain;
     picture.slice = viewer::SlicePicture{
-        {-5.0, 0.0, 5.0}, {10.0, 0.0, 0.0}, {0.0, 0.0, -10.0}, 2, 2, {1.0F, 1.0F, 1.0F, 1.0F}, 1.0};
+        {-5.0, 0.0, 5.0}, {10.0, 0.0, 0.0}, {0.0, 0.0, -10.0}, 2, 2, {1.0F, 1.0F, 1.0F, 1.0F}};
     draw(picture);
     EXPECT_EQ(renderer_->counts().objects, live_objects() - before);
     EXPECT_EQ(renderer_->counts().errors, 0) << renderer_->last_error();

@@ -181,7 +181,7 @@ TEST_F(RendererPartsGl, WhatLooksAwayIsLeftOut) {
   // A cut shows it from inside.
   Picture cut;
   cut.slice = viewer::SlicePicture{
-      {-24.0, 0.0, 24.0}, {48.0, 0.0, 0.0}, {0.0, 0.0, -48.0}, 2, 2, {1.0F, 1.0F, 1.0F, 1.0F}, 1.0};
+      {-24.0, 0.0, 24.0}, {48.0, 0.0, 0.0}, {0.0, 0.0, -48.0}, 2, 2, {1.0F, 1.0F, 1.0F, 1.0F}};
   draw(cut);
   const auto counts = renderer_->counts();
   EXPECT_GT(counts.drawn_triangles, 4 * counts.triangles / 10) << "the half behind the cut";

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include <imgui.h>
@@ -17,6 +18,7 @@
 #include "document/document.h"
 #include "document/printer_list.h"
 #include "haptics/felt_tool.h"
+#include "panels/layout.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -153,6 +155,7 @@ Result<ViewReport> App::run() {
   while (!has_ended()) {
     if (auto done = frame(); !done) return done.error();
   }
+  drop_untouched();
   // What tests and `argil view --json` read.
   report_.frames = static_cast<std::int64_t>(frame_ms_.size());
   report_.frame_ms_p50 = quantile(frame_ms_, 0.5);
@@ -177,6 +180,18 @@ Result<ViewReport> App::run() {
                                           " errors, the last: " + renderer_->last_error()};
   }
   return report_;
+}
+
+/// A new clay that nobody has touched is no work to be found again.
+void App::drop_untouched() {
+  const ClayState clay = document_.state();
+  if (!clay.has_clay || !clay.is_untitled || clay.is_changed || !document_.is_idle()) return;
+  document_.send(EndProject{false});
+  // Removing a file takes no time; a disk that hangs is not waited for.
+  for (int n = 0; n < 200 && !document_.is_idle(); ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    document_.take_blocks(shown_inputs_s_);
+  }
 }
 
 /// Asked before each frame: what ends the window by itself, then a signal, then the user.
@@ -221,7 +236,10 @@ Result<void> App::frame() {
   if (auto turned = turn_table(); !turned) return turned;
   note_last_frame();
   note_motion(now);
+  ui_.chord = chord();
   const Picture picture = this->picture();
+  gui_.set_scale(scale_of_panels(window_->scale(), ui_.settings.panel_percent, window_->width(),
+                                 window_->height()));
   gui_.begin_frame(now - last_s_);
   // take_events() went by the panels of the frame before, and another event may not follow.
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
@@ -495,7 +513,10 @@ Picture App::picture() const {
   }
   if (show.has_planes) add_planes(picture);
   add_cut(picture);
-  if (show.has_slice) picture.slice = slice_;
+  if (show.has_slice) {
+    picture.slice = slice_;
+    if (ui_.chord) picture.lines.push_back({{ui_.chord->from_mm, ui_.chord->to_mm}, kRingColor});
+  }
   if (show.has_pins && ui_.report) {
     for (const mesh::MeshProblem& problem : ui_.report->verdict.problems) {
       picture.pins.push_back({problem.at_mm, {1.0, 0.1, 0.1}});
@@ -529,7 +550,8 @@ void App::add_planes(Picture& picture) const {
   const auto add = [&](bool is_on, const Vec3& normal, const Vec3& color) {
     if (!is_on) return;
     const Vec3 middle = box.center() - dot(box.center(), normal) * normal;
-    picture.planes.push_back({middle, normal, half, color});
+    // Filled it would veil half of the piece.
+    picture.planes.push_back({middle, normal, half, color, false});
   };
   add(mirror.x, {1.0, 0.0, 0.0}, {0.9, 0.3, 0.3});
   add(mirror.y, {0.0, 1.0, 0.0}, {0.3, 0.8, 0.3});
@@ -573,6 +595,13 @@ void App::cut_slice() {
   plane.down_mm[down] = -2.0 * half;
   plane.columns = plane.rows = 384;
   document_.cut(plane);
+}
+
+/// How thick the material of the slice is under the pointer.
+std::optional<Chord> App::chord() const {
+  if (!ui_.show.has_slice || !slice_ || !ui_.is_pointer_over_clay_view) return std::nullopt;
+  return shortest_chord(*slice_,
+                        part_at(ui_.camera, ui_.show.is_stereo, ui_.pointer).ray_at(ui_.pointer));
 }
 
 /// Leads the hand to the point of the clay under the pointer. What cannot be felt goes back to the
@@ -651,6 +680,7 @@ void App::draw_panels() {
   draw_history(ui_, document_);
   draw_print(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
+  draw_thickness(ui_);
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, document_);
   draw_operations(ui_, document_);
@@ -694,7 +724,10 @@ Result<bool> App::play(const ScriptStep& step) {
   } else if (const auto* wait = std::get_if<WaitFrames>(&step.what)) {
     wait_frames_ = wait->frames - 1;
   } else if (std::holds_alternative<Settle>(step.what)) {
-    if (!has_started_ || !document_.is_idle() || ui_.task.is_running) return false;
+    // What is shown depends on from where: the thread must have been told.
+    if (!has_started_ || !document_.is_idle() || ui_.task.is_running || !is_view_told()) {
+      return false;
+    }
     wait_frames_ = 2;  // drawn, and its answers shown
   } else if (const auto* shot = std::get_if<Shot>(&step.what)) {
     shots_.push_back(shot->file);

@@ -66,6 +66,7 @@ class App {
   void take_over_path(bool had_clay);
   void tick_haptics(double now_s);
   void cut_slice();
+  std::optional<Chord> chord() const;
   void note_motion(double now_s);
   bool is_moving() const;
   SurfaceProbe probe(const Camera::Pixel& pixel);
@@ -74,6 +75,7 @@ class App {
   Result<void> turn_table();
   void take_screenshot();
   bool has_ended();
+  void drop_untouched();
   void note_recent();
   void start_empty();
   void keep_settings();

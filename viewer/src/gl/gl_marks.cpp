@@ -21,6 +21,7 @@ constexpr double kHiddenRing = 0.34;
 constexpr double kHiddenPlane = 0.15;
 constexpr double kPlaneAlpha = 0.16;
 constexpr double kPatchAlpha = 0.30;
+constexpr double kFaint = 0.5;  // a frame without a fill, of its colour
 /// Of a parallel lens: how much nearer marks are seen, as a fraction of what is between its planes.
 constexpr double kNearerFraction = 0.003;
 
@@ -106,12 +107,14 @@ void GlMarks::draw_planes(const Picture& picture, const EyeView& eye) const {
   std::vector<SolidVertex> fills;
   std::vector<LineVertex> edges;
   for (const PlaneMark& plane : picture.planes) {
-    add_fill(fills, plane_corners(plane), plane.color, kPlaneAlpha);
-    add_loop(edges, plane_corners(plane), plane.color);
+    if (plane.is_filled) add_fill(fills, plane_corners(plane), plane.color, kPlaneAlpha);
+    add_loop(edges, plane_corners(plane), plane.is_filled ? plane.color : kFaint * plane.color);
   }
   glDepthFunc(GL_LEQUAL);
-  set_eye(solids_, eye);
-  solid_stream_.draw<SolidVertex>(GL_TRIANGLES, fills);
+  if (!fills.empty()) {
+    set_eye(solids_, eye);
+    solid_stream_.draw<SolidVertex>(GL_TRIANGLES, fills);
+  }
   set_eye(lines_, eye);
   lines_.set("half_width", kRingHalfPixels);
   send(line_stream_, edges);

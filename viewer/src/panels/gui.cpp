@@ -47,6 +47,7 @@ void load_letters(double scale) {
 
 /// Dark, so that the clay is the lightest thing on the screen; the accents are clay's own colour.
 void set_style(double scale) {
+  ImGui::GetStyle() = ImGuiStyle();  // sizes are scaled once
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 4.0F;
@@ -115,9 +116,19 @@ Gui::Gui(Window& window) : window_(window) {
     static_cast<Gui*>(me)->window_.set_clipboard(text);
   };
   name_keys(io);
-  load_letters(window.scale());
-  set_style(window.scale());
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  set_scale(window.scale());
+}
+
+void Gui::set_scale(double scale) {
+  assert(scale > 0.0);
+  if (scale == scale_) return;
+  scale_ = scale;
+  ImGui::GetIO().Fonts->Clear();
+  load_letters(scale);
+  set_style(scale);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 Gui::~Gui() {
@@ -281,7 +292,8 @@ bool pick_one(const char* label, int& index, const std::vector<std::string>& nam
 }
 
 bool text_field(const char* label, std::string& text) {
-  const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText(
+      label, &text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   note_widget(label);
   return entered;
 }

@@ -34,6 +34,9 @@ class Gui {
   /// lists of a dialog are left to the dialog.
   bool leaves_list(const InputEvent& event);
 
+  /// How large panels and letters are from the next frame on: times kLetterPixels.
+  void set_scale(double scale);
+
   void begin_frame(double elapsed_s);
   /// True when the panels look different from those at the last end_frame.
   bool end_frame();
@@ -56,6 +59,7 @@ class Gui {
  private:
   Window& window_;
   std::string clipboard_;
+  double scale_ = 0.0;
   std::string look_;  ///< all that was to be drawn at the last end_frame
   InputQueue queue_;
 };

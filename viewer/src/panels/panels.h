@@ -27,6 +27,7 @@ void draw_history(UiState& ui, DocumentThread& document);
 void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document);
 void draw_print(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
+void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
 void draw_toasts(MessageLog& log);
 void draw_messages(UiState& ui, MessageLog& log);

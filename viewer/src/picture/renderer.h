@@ -47,12 +47,13 @@ struct ArrowMark {
   friend bool operator==(const ArrowMark&, const ArrowMark&) = default;
 };
 
-/// A see-through square: a plane of symmetry.
+/// A square with a frame: a plane of symmetry, or of a cut that is to be made.
 struct PlaneMark {
   Vec3 point_mm;
   Vec3 normal;
   double half_side_mm = 10.0;
   Vec3 color{0.3, 0.6, 1.0};
+  bool is_filled = true;  ///< tints what is behind it; else it is only a frame, and faint
   friend bool operator==(const PlaneMark&, const PlaneMark&) = default;
 };
 
@@ -70,7 +71,8 @@ struct LineMark {
   friend bool operator==(const LineMark&, const LineMark&) = default;
 };
 
-/// Signed distances over a rectangle, drawn as bands of density: a cut through the clay.
+/// Signed distances over a rectangle, drawn as the material's cross-section: a cut through the
+/// clay.
 struct SlicePicture {
   Vec3 corner_mm;  ///< of the first value
   Vec3 along_mm;   ///< from there to the end of the first row
@@ -78,7 +80,6 @@ struct SlicePicture {
   int columns = 0;
   int rows = 0;
   std::vector<float> distance_mm;  ///< row by row
-  double skin_mm = 1.0;            ///< density is 1 - distance / skin, at least 0
   friend bool operator==(const SlicePicture&, const SlicePicture&) = default;
 };
 
