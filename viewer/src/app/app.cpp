@@ -258,12 +258,23 @@ Result<void> App::frame() {
   }
   frame_ms_.push_back(1e3 * (end - start));
   const RendererCounts counts = renderer_->counts();
-  if (counts.pictures != former.pictures) last_frame_ = {frame_ms_.back(), counts};
+  if (counts.pictures != former.pictures)
+    last_frame_ = {frame_ms_.back(), counts, recent_latency()};
   if (counts.whole_pictures != former.whole_pictures && !picture.is_moving) {
     is_fluent_ = frame_ms_.back() < kFluentMs;
   }
   next_frame_s_ = next_frame_s(now);
   return {};
+}
+
+/// Of the strokes that a person remembers.
+std::optional<std::pair<double, double>> App::recent_latency() const {
+  constexpr std::size_t kMost = 500;
+  if (!options_.shows_latency || latency_ms_.empty()) return std::nullopt;
+  const std::size_t count = std::min(kMost, latency_ms_.size());
+  const std::vector<double> recent(latency_ms_.end() - static_cast<std::ptrdiff_t>(count),
+                                   latency_ms_.end());
+  return std::pair{quantile(recent, 0.5), quantile(recent, 0.99)};
 }
 
 /// A script and a number of frames go on whatever happens.

@@ -43,6 +43,7 @@ class App {
   void open_first();
   void find_left_projects();
   Result<void> frame();
+  std::optional<std::pair<double, double>> recent_latency() const;
   bool waits_for_events() const;
   double wait_s() const;
   double next_frame_s(double now_s) const;

@@ -167,6 +167,11 @@ void draw_status(const UiState& ui, const FrameState& frame) {
                   clay.is_changed ? " *" : "", grouped(frame.counts.triangles).c_str(),
                   clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
     ImGui::TextUnformatted(text);
+    if (frame.latency_ms) {
+      ImGui::SameLine(0.0F, 0.0F);
+      ImGui::Text("   |   input to screen %.0f ms, p99 %.0f", frame.latency_ms->first,
+                  frame.latency_ms->second);
+    }
   } else {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
   }
