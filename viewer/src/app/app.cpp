@@ -32,11 +32,10 @@ constexpr double kRestS = 0.005;      // between frames that show nothing new
 // the wait, so it ends by itself four times a second, and no frame is made.
 constexpr double kLookUpS = 0.25;
 constexpr int kFramesToSettle = 3;  // of panels after an event: a list opens in the second frame
-// Between frames of what moves by itself: a hand or a stroke, a bar or a slider that is held, the
-// mark of a text field, and an answer of the desktop.
+// Between frames of what moves by itself: a hand or a stroke; a bar, a slider that is held, and an
+// answer of the desktop.
 constexpr double kLiveS = 1.0 / 60.0;
 constexpr double kBarS = 0.05;
-constexpr double kBlinkS = 0.2;
 // While the camera turns, and so long after, a clay that takes longer to draw than this is drawn
 // with fewer triangles. A whole frame of a screen that is waited for takes 17 ms.
 constexpr double kMotionS = 0.15;
@@ -296,7 +295,6 @@ double App::next_frame_s(double now_s) const {
   };
   every(haptics_->is_running() || gestures_.is_stroke_open(), kLiveS);
   every(ui_.task.is_running || gui_.is_held() || files_.is_waiting(), kBarS);
-  every(gui_.is_typed_into(), kBlinkS);
   if (is_moving()) next_s = std::min(next_s, moved_s_ + kMotionS);
   // The last turn of the camera came too soon after the one before to be told of.
   if (!gestures_.is_stroke_open() && !is_view_told()) {

@@ -104,7 +104,8 @@ Gui::Gui(Window& window) : window_(window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // panels begin where the program puts them
+  io.IniFilename = nullptr;               // panels begin where the program puts them
+  io.ConfigInputTextCursorBlink = false;  // or a window that waits for a name would never rest
   io.BackendPlatformName = "argil";
   io.ClipboardUserData = this;
   io.GetClipboardTextFn = [](void* me) {
@@ -193,8 +194,6 @@ bool Gui::end_frame() {
 void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 bool Gui::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-
-bool Gui::is_typed_into() const { return ImGui::GetIO().WantTextInput; }
 
 bool Gui::is_held() const { return ImGui::IsAnyMouseDown() && ImGui::GetIO().WantCaptureMouse; }
 

@@ -45,8 +45,6 @@ class Gui {
 
   /// Whether the pointer is over a panel, as of the last begin_frame.
   bool takes_mouse() const;
-  /// Whether a field has the keyboard: its mark blinks.
-  bool is_typed_into() const;
   /// Whether a button of the mouse is held on a panel.
   bool is_held() const;
   /// Whether the next frame has something to show that came before the last one.
