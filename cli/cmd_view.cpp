@@ -61,6 +61,11 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   if (io::interrupted()) outcome.status = status_of(ErrorKind::interrupted);
   outcome.text = grouped(report.frames) + " frames, " + number(report.frame_ms_p50) +
                  " ms each (p99 " + number(report.frame_ms_p99) + ")\n";
+  if (options.shows_latency) {
+    outcome.text += "from an input to the frame that shows its dab " +
+                    number(report.latency_ms_p50) + " ms (p99 " + number(report.latency_ms_p99) +
+                    ")\n";
+  }
   return outcome;
 }
 
@@ -95,6 +100,8 @@ void add_view(CLI::App& app, Selected& selected) {
       ->add_option("--home", options->home,
                    "where unsaved projects, settings and printers are kept")
       ->type_name("FOLDER");
+  command->add_flag("--latency", options->shows_latency,
+                    "show how long after an input its dab is on the screen");
   command->add_flag("--check-gl", options->checks_gl, "fail when OpenGL reports an error");
 }
 

@@ -428,6 +428,21 @@ std::uint64_t leave_untitled(const std::filesystem::path& file, double radius_mm
   return session.value().clay().hash();
 }
 
+TEST_F(ViewWindowGl, ANameIsTypedAtOnceAndNothingWithoutANameStaysBehind) {
+  const WindowRun saved =
+      play("settle\n" + stroke_between_panels() +
+               "settle\nkey Ctrl+S\nframes 3\ntype typed.vdb\nkey Enter\nsettle\n",
+           "--latency");
+  EXPECT_EQ(saved.status, 0) << saved.words;
+  EXPECT_GT(saved.report.at("latency_ms").at("p50"), 0.0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "typed.vdb"));
+  EXPECT_TRUE(std::filesystem::is_empty(home() / "unsaved"));
+  // Nor does a new clay that nobody touched, however the window ends.
+  const WindowRun untouched = play("settle\n");
+  EXPECT_EQ(untouched.status, 0) << untouched.words;
+  EXPECT_TRUE(std::filesystem::is_empty(home() / "unsaved"));
+}
+
 TEST_F(ViewWindowGl, EveryProjectThatWasLeftWithoutANameIsOffered) {
   const auto unsaved = home() / "unsaved";
   leave_untitled(unsaved / "Untitled-1.vdb", 10.0);
@@ -524,7 +539,7 @@ TEST_F(ViewWindowGl, EveryPanelOpens) {
       "click Hollow with drains\nframes 2\nclick Stroke\nframes 2\nkey Ctrl+H\nkey Ctrl+M\n"
       "frames 2\nkey F1\nframes 2\nkey F1\nkey Ctrl+N\nframes 3\nclick Not now\n"
       "key Ctrl+W\nframes 3\nclick Hollow\nsettle\nkey Ctrl+E\nframes 3\nclick Close\n"
-      "key Ctrl+O\nframes 3\nclick No file\nframes 2\nclick Mask\nframes 2\n"
+      "key Ctrl+O\nframes 3\nclick Cancel\nframes 2\nclick Mask\nframes 2\n"
       "click Fill##mask\nsettle\nclick Device\nclick Device panel\nclick Feel\nframes 2\n"
       "key W\nkey Shift+W\nsettle\nkey Shift+Z\n"
       "frames 2\nkey Z\nframes 2\nkey Z\nframes 2\nkey Z\nframes 2\nkey Tab\nframes 2\n",

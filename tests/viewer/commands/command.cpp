@@ -17,6 +17,12 @@
 namespace argil::viewer {
 namespace {
 
+TEST_F(GesturesTest, ResamplingBeginsWithTheVoxelThatTheClayHas) {
+  ui_.clay.voxel_mm = 0.07;
+  perform(Command::operations, ui_, document_);
+  EXPECT_EQ(ui_.operation.voxel_mm, 0.07);
+}
+
 TEST(Deeds, EveryChordNamesOneDeedOrAction) {
   std::set<std::string> chords;
   for (const CommandInfo& info : command_infos()) {

@@ -2,6 +2,7 @@
 #include "document/document_thread.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -484,6 +485,29 @@ TEST_F(DocumentThreadTest, SlicesAndAnswersFollowTheClay) {
   EXPECT_GT(slice->distance_mm[0], 5.0F);
   ASSERT_TRUE(thread_.answer() && thread_.answer()->pick);
   EXPECT_NEAR(thread_.answer()->pick->distance_mm, 80.0, 0.05);
+}
+
+TEST(DocumentThreadNews, WakeTheWindowOnceUntilTheyAreTaken) {
+  const test::ScratchFolder folder;
+  std::atomic<int> wakes{0};
+  DocumentThread thread({folder.path(), [&] { ++wakes; }});
+  const auto soon = [](const auto& is_so) {
+    for (int n = 0; n < 2000 && !is_so(); ++n) std::this_thread::sleep_for(milliseconds(5));
+    return is_so();
+  };
+  thread.send(NewClay{{io::StartShape::Kind::ball, {10.0, 0.0, 0.0}, {}}});
+  ASSERT_TRUE(soon([&] { return thread.state().has_clay; }));
+  EXPECT_EQ(wakes, 1);
+  std::vector<double> inputs;
+  ASSERT_TRUE(
+      soon([&] { return static_cast<void>(thread.take_blocks(inputs)), thread.is_idle(); }));
+  thread.take_blocks(inputs);
+  const int before = wakes;
+  EXPECT_FALSE(thread.has_news());
+  thread.ask({{0.0, -100.0, 0.0}, {0.0, 1.0, 0.0}});
+  ASSERT_TRUE(soon([&] { return thread.has_news(); }));
+  EXPECT_EQ(wakes, before + 1);
+  EXPECT_TRUE(thread.answer());
 }
 
 /// Strokes, undo and another clay: what is picked is what is shown.

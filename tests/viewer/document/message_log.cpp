@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document/message_log.h"
 
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -28,6 +29,18 @@ TEST(MessageLog, ErrorsStayUntilTheyAreDismissedAndTheRestGoes) {
   EXPECT_EQ(shown(log), "");
   ASSERT_EQ(log.messages().size(), 2U);  // and can be looked up
   EXPECT_EQ(log.messages()[1].clock, "14:00:01");
+}
+
+TEST(MessageLog, SaysWhenTheNextOfThemIsToBeHidden) {
+  MessageLog log;
+  EXPECT_EQ(log.next_s(), std::numeric_limits<double>::infinity());
+  log.add(notice_of({ErrorKind::disk, "full"}), 0.0, "");
+  EXPECT_EQ(log.next_s(), std::numeric_limits<double>::infinity());
+  log.add({Notice::Kind::done, "saved"}, 3.0, "");
+  log.add({Notice::Kind::done, "opened"}, 2.0, "");
+  EXPECT_EQ(log.next_s(), 2.0 + MessageLog::kShownS);
+  log.tick(2.5 + MessageLog::kShownS);
+  EXPECT_EQ(log.next_s(), 3.0 + MessageLog::kShownS);
 }
 
 TEST(MessageLog, AnErrorTakesThePlaceOfTheOneOfItsKind) {

@@ -14,8 +14,11 @@ TEST(Settings, AreReadAsTheyWereWritten) {
   const test::ScratchFolder folder;
   const auto home = folder / "not there yet";
   EXPECT_EQ(read_settings(home), Settings());
-  const Settings chosen{
-      true, "my printer 2", "/a folder/nvent firmware.bin", {"Untitled-1 12", "Untitled-2 34"}};
+  const Settings chosen{true,
+                        "my printer 2",
+                        "/a folder/nvent firmware.bin",
+                        {"Untitled-1 12", "Untitled-2 34"},
+                        150};
   ASSERT_TRUE(write_changes(home, {}, chosen).ok());
   EXPECT_EQ(read_settings(home), chosen);
   ASSERT_TRUE(write_changes(home, chosen, {}).ok());
@@ -53,6 +56,15 @@ TEST(Settings, ANameWithoutAValueTakesNoneOfTheNextLine) {
   const test::ScratchFolder folder;
   test::fill(folder / "settings.txt", "printer\nfalcon_firmware \nnumber_views 1\n");
   EXPECT_EQ(read_settings(folder.path()), (Settings{true, "", ""}));
+}
+
+TEST(Settings, ASizeOfPanelsThatNobodyCanChooseIsBroughtIntoRange) {
+  const test::ScratchFolder folder;
+  for (const auto& [text, percent] :
+       {std::pair{"175", 175}, {"10", 75}, {"9000", 300}, {"many", 100}}) {
+    test::fill(folder / "settings.txt", std::string("panel_percent ") + text + "\n");
+    EXPECT_EQ(read_settings(folder.path()).panel_percent, percent) << text;
+  }
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST_F(RendererDepthGl, DepthIsTheBallsOwnOffTheCentreAndInAParallelLens) {
 }
 
 TEST_F(RendererDepthGl, DepthIsTheBallsOwnWithSeveralSamplesAPixel) {
-  auto made = viewer::make_gl_renderer_with(4);
+  auto made = viewer::make_gl_renderer_with({4, false});
   ASSERT_TRUE(made.ok()) << made.error().message;
   renderer_ = std::move(made).value();
   put(ball_block(kRadiusMm, kSplits));

@@ -63,7 +63,7 @@ void RendererScene::SetUp() {
   std::string why_not;
   screen_ = Offscreen::make(kWidth, kHeight, why_not);
   if (screen_ == nullptr) GTEST_SKIP() << why_not;
-  auto made = viewer::make_gl_renderer();
+  auto made = viewer::make_gl_renderer_with({});
   ASSERT_TRUE(made.ok()) << made.error().message;
   renderer_ = std::move(made).value();
   camera_.resize(kWidth, kHeight);

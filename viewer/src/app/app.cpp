@@ -5,6 +5,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include <imgui.h>
@@ -17,6 +18,7 @@
 #include "document/document.h"
 #include "document/printer_list.h"
 #include "haptics/felt_tool.h"
+#include "panels/layout.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -26,6 +28,18 @@ namespace fs = std::filesystem;
 
 constexpr double kViewEveryS = 0.05;  // blocks follow a turning camera so often
 constexpr double kRestS = 0.005;      // between frames that show nothing new
+// How long a window that shows all there is waits for something to happen. A signal does not end
+// the wait, so it ends by itself four times a second, and no frame is made.
+constexpr double kLookUpS = 0.25;
+constexpr int kFramesToSettle = 3;  // of panels after an event: a list opens in the second frame
+// Between frames of what moves by itself: a hand or a stroke; a bar, a slider that is held, and an
+// answer of the desktop.
+constexpr double kLiveS = 1.0 / 60.0;
+constexpr double kBarS = 0.05;
+// While the camera turns, and so long after, a clay that takes longer to draw than this is drawn
+// with fewer triangles. A whole frame of a screen that is waited for takes 17 ms.
+constexpr double kMotionS = 0.15;
+constexpr double kFluentMs = 25.0;
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
@@ -53,7 +67,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       home_(std::move(home)),
       window_(std::move(window)),
       renderer_(std::move(renderer)),
-      document_({home_}),
+      document_({home_, [] { Window::wake(); }}),
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
@@ -140,6 +154,7 @@ Result<ViewReport> App::run() {
   while (!has_ended()) {
     if (auto done = frame(); !done) return done.error();
   }
+  drop_untouched();
   // What tests and `argil view --json` read.
   report_.frames = static_cast<std::int64_t>(frame_ms_.size());
   report_.frame_ms_p50 = quantile(frame_ms_, 0.5);
@@ -166,6 +181,18 @@ Result<ViewReport> App::run() {
   return report_;
 }
 
+/// A new clay that nobody has touched is no work to be found again.
+void App::drop_untouched() {
+  const ClayState clay = document_.state();
+  if (!clay.has_clay || !clay.is_untitled || clay.is_changed || !document_.is_idle()) return;
+  document_.send(EndProject{false});
+  // Removing a file takes no time; a disk that hangs is not waited for.
+  for (int n = 0; n < 200 && !document_.is_idle(); ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    document_.take_blocks(shown_inputs_s_);
+  }
+}
+
 /// Asked before each frame: what ends the window by itself, then a signal, then the user.
 bool App::has_ended() {
   if (options_.frames > 0 && static_cast<int>(frame_ms_.size()) >= options_.frames) return true;
@@ -186,17 +213,17 @@ bool App::has_ended() {
 
 Result<void> App::frame() {
   if (auto played = play_script(); !played) return played;
-  // An idle window waits for events; one that works draws as often as it can.
-  const bool is_idle = window_->now_s() > busy_until_s_ && !has_script_ && options_.frames == 0;
-  const double rest_s = is_at_rest_ ? kRestS : 0.0;
-  const std::vector<InputEvent> events = window_->poll(is_idle ? 0.1 : rest_s);
+  const std::vector<InputEvent> events = window_->poll(wait_s());
   const double now = window_->now_s();
   const double start = now;
+  const bool is_due = !waits_for_events() || now >= next_frame_s_;
+  const bool has_news = !events.empty() || document_.has_news() || window_->is_exposed();
+  if (!is_due && !has_news) return {};
+  if (has_news) frames_to_settle_ = kFramesToSettle;
   ui_.camera.resize(window_->width(), window_->height());
   take_events(events);
   gestures_.tick(now);
   take_news();
-  if (!events.empty() || !shown_inputs_s_.empty() || ui_.task.is_running) busy_until_s_ = now + 0.5;
   follow_camera();
   ask_for_hover();
   cut_slice();
@@ -206,15 +233,22 @@ Result<void> App::frame() {
     most_shown_n_ = std::max(most_shown_n_, length(shown->force_n));
   }
   if (auto turned = turn_table(); !turned) return turned;
+  note_last_frame();
+  note_motion(now);
+  ui_.chord = chord();
   const Picture picture = this->picture();
+  gui_.set_scale(scale_of_panels(window_->scale(), ui_.settings.panel_percent, window_->width(),
+                                 window_->height()));
   gui_.begin_frame(now - last_s_);
   // take_events() went by the panels of the frame before, and another event may not follow.
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
   draw_panels();
   const bool has_new_panels = gui_.end_frame();
+  // What fades or was laid out anew goes on.
+  frames_to_settle_ = std::max(frames_to_settle_ - 1, has_new_panels ? 1 : 0);
   keep_settings();
-  const std::int64_t former_pictures = renderer_->counts().pictures;
+  const RendererCounts former = renderer_->counts();
   if (auto shown = show(picture, has_new_panels); !shown) return shown;
 
   const double end = window_->now_s();
@@ -223,8 +257,50 @@ Result<void> App::frame() {
   }
   frame_ms_.push_back(1e3 * (end - start));
   const RendererCounts counts = renderer_->counts();
-  if (counts.pictures != former_pictures) last_frame_ = {frame_ms_.back(), counts};
+  if (counts.pictures != former.pictures)
+    last_frame_ = {frame_ms_.back(), counts, recent_latency()};
+  if (counts.whole_pictures != former.whole_pictures && !picture.is_moving) {
+    is_fluent_ = frame_ms_.back() < kFluentMs;
+  }
+  next_frame_s_ = next_frame_s(now);
   return {};
+}
+
+/// Of the strokes that a person remembers.
+std::optional<std::pair<double, double>> App::recent_latency() const {
+  constexpr std::size_t kMost = 500;
+  if (!options_.shows_latency || latency_ms_.empty()) return std::nullopt;
+  const std::size_t count = std::min(kMost, latency_ms_.size());
+  const std::vector<double> recent(latency_ms_.end() - static_cast<std::ptrdiff_t>(count),
+                                   latency_ms_.end());
+  return std::pair{quantile(recent, 0.5), quantile(recent, 0.99)};
+}
+
+/// A script and a number of frames go on whatever happens.
+bool App::waits_for_events() const { return !has_script_ && options_.frames == 0; }
+
+/// How long the next frame may wait for an event.
+double App::wait_s() const {
+  const double rest_s = is_at_rest_ ? kRestS : 0.0;
+  if (!waits_for_events()) return rest_s;
+  return std::clamp(next_frame_s_ - window_->now_s(), rest_s, kLookUpS);
+}
+
+/// When there is something new to see though nothing happens until then.
+double App::next_frame_s(double now_s) const {
+  if (frames_to_settle_ > 0 || gui_.has_waiting_input() || ui_.turntable_left > 0) return now_s;
+  double next_s = log_.next_s();
+  const auto every = [&](bool is_wanted, double s) {
+    if (is_wanted) next_s = std::min(next_s, now_s + s);
+  };
+  every(haptics_->is_running() || gestures_.is_stroke_open(), kLiveS);
+  every(ui_.task.is_running || gui_.is_held() || files_.is_waiting(), kBarS);
+  if (is_moving()) next_s = std::min(next_s, moved_s_ + kMotionS);
+  // The last turn of the camera came too soon after the one before to be told of.
+  if (!gestures_.is_stroke_open() && !is_view_told()) {
+    next_s = std::min(next_s, view_sent_s_ + kViewEveryS);
+  }
+  return next_s;
 }
 
 /// Draws the picture and the panels into the window; nothing where the window shows them already. A
@@ -234,7 +310,6 @@ Result<void> App::frame() {
 Result<void> App::show(const Picture& picture, bool has_new_panels) {
   const int width = window_->width();
   const int height = window_->height();
-  note_last_frame();
   const bool is_exposed = window_->take_exposed();
   is_at_rest_ = !is_exposed && !has_new_panels && shots_.empty() && !ui_.wants_screenshot &&
                 renderer_->holds(picture, width, height);
@@ -354,15 +429,17 @@ void App::note_recent() {
 /// drawn, so that nothing but the stroke changes.
 void App::follow_camera() {
   if (gestures_.is_stroke_open()) return;
-  const DisplayView view = ui_.camera.display_view();
-  const bool is_same = view.eye_mm == shown_view_.eye_mm &&
-                       view.pixel_rad == shown_view_.pixel_rad &&
-                       view.pixel_mm == shown_view_.pixel_mm;
   const double now = window_->now_s();
-  if (is_same || now - view_sent_s_ < kViewEveryS) return;
-  shown_view_ = view;
+  if (is_view_told() || now - view_sent_s_ < kViewEveryS) return;
+  shown_view_ = ui_.camera.display_view();
   view_sent_s_ = now;
-  document_.look(view);
+  document_.look(shown_view_);
+}
+
+bool App::is_view_told() const {
+  const DisplayView view = ui_.camera.display_view();
+  return view.eye_mm == shown_view_.eye_mm && view.pixel_rad == shown_view_.pixel_rad &&
+         view.pixel_mm == shown_view_.pixel_mm;
 }
 
 /// The question what the brush would feel, where the force is shown without a device.
@@ -396,7 +473,27 @@ void App::ask_for_hover() {
   document_.ask(ray, touch);
 }
 
+/// Notes whether the camera is another one than before, by any hand.
+void App::note_motion(double now_s) {
+  const Lens lens = ui_.camera.lens({});
+  if (std::exchange(seen_lens_, lens) != lens) moved_s_ = now_s;
+  in_motion_ = now_s - moved_s_ < kMotionS;
+}
+
+/// Whether fewer triangles do for this picture. One that is stored has all of them.
+bool App::is_moving() const {
+  return in_motion_ && !is_fluent_ && shots_.empty() && !ui_.wants_screenshot;
+}
+
+/// Of the clay with all its triangles, also while the camera still turns.
 SurfaceProbe App::probe(const Camera::Pixel& pixel) {
+  Picture picture = this->picture();
+  if (std::exchange(picture.is_moving, false)) {
+    moved_s_ = -kMotionS;
+    in_motion_ = false;
+    // Where it cannot be drawn nothing is under the pointer.
+    static_cast<void>(renderer_->draw(picture, 0, window_->width(), window_->height()).ok());
+  }
   const WindowPart part = part_at(ui_.camera, ui_.show.is_stereo, pixel);
   return {renderer_->read_depth(part.eye), part};
 }
@@ -413,6 +510,7 @@ Picture App::picture() const {
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;
+  picture.is_moving = is_moving();
   add_rings(picture);
   add_force(picture);
   add_path(picture);
@@ -424,7 +522,10 @@ Picture App::picture() const {
   }
   if (show.has_planes) add_planes(picture);
   add_cut(picture);
-  if (show.has_slice) picture.slice = slice_;
+  if (show.has_slice) {
+    picture.slice = slice_;
+    if (ui_.chord) picture.lines.push_back({{ui_.chord->from_mm, ui_.chord->to_mm}, kRingColor});
+  }
   if (show.has_pins && ui_.report) {
     for (const mesh::MeshProblem& problem : ui_.report->verdict.problems) {
       picture.pins.push_back({problem.at_mm, {1.0, 0.1, 0.1}});
@@ -458,7 +559,8 @@ void App::add_planes(Picture& picture) const {
   const auto add = [&](bool is_on, const Vec3& normal, const Vec3& color) {
     if (!is_on) return;
     const Vec3 middle = box.center() - dot(box.center(), normal) * normal;
-    picture.planes.push_back({middle, normal, half, color});
+    // Filled it would veil half of the piece.
+    picture.planes.push_back({middle, normal, half, color, false});
   };
   add(mirror.x, {1.0, 0.0, 0.0}, {0.9, 0.3, 0.3});
   add(mirror.y, {0.0, 1.0, 0.0}, {0.3, 0.8, 0.3});
@@ -504,6 +606,13 @@ void App::cut_slice() {
   document_.cut(plane);
 }
 
+/// How thick the material of the slice is under the pointer.
+std::optional<Chord> App::chord() const {
+  if (!ui_.show.has_slice || !slice_ || !ui_.is_pointer_over_clay_view) return std::nullopt;
+  return shortest_chord(*slice_,
+                        part_at(ui_.camera, ui_.show.is_stereo, ui_.pointer).ray_at(ui_.pointer));
+}
+
 /// Leads the hand to the point of the clay under the pointer. What cannot be felt goes back to the
 /// mouse, with a message.
 void App::tick_haptics(double now_s) {
@@ -518,7 +627,6 @@ void App::tick_haptics(double now_s) {
   }
   ui_.is_hand_led = haptics_->is_running() && ui_.haptics.device == DeviceChoice::sim &&
                     ui_.haptics.scene == "clay";
-  if (haptics_->is_running()) busy_until_s_ = now_s + 0.5;
 }
 
 /// What the hand feels; without a device, what the brush under the pointer would feel.
@@ -581,6 +689,7 @@ void App::draw_panels() {
   draw_history(ui_, document_);
   draw_print(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
+  draw_thickness(ui_);
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, document_);
   draw_operations(ui_, document_);
@@ -624,7 +733,10 @@ Result<bool> App::play(const ScriptStep& step) {
   } else if (const auto* wait = std::get_if<WaitFrames>(&step.what)) {
     wait_frames_ = wait->frames - 1;
   } else if (std::holds_alternative<Settle>(step.what)) {
-    if (!has_started_ || !document_.is_idle() || ui_.task.is_running) return false;
+    // What is shown depends on from where: the thread must have been told.
+    if (!has_started_ || !document_.is_idle() || ui_.task.is_running || !is_view_told()) {
+      return false;
+    }
     wait_frames_ = 2;  // drawn, and its answers shown
   } else if (const auto* shot = std::get_if<Shot>(&step.what)) {
     shots_.push_back(shot->file);
@@ -662,6 +774,7 @@ Result<void> App::turn_table() {
     for (turntable_ = 1; fs::exists(file_of(0), error);) ++turntable_;
   }
   Picture bare = picture();
+  bare.is_moving = false;
   bare.rings.clear();
   bare.arrows.clear();
   bare.planes.clear();
@@ -677,7 +790,6 @@ Result<void> App::turn_table() {
   }
   // A full turn is twice the drag of half a turn.
   ui_.camera.orbit(2.0 * window_->width() / kTurntableFrames, 0.0);
-  busy_until_s_ = window_->now_s() + 0.5;
   if (ui_.turntable_left == 0) tell({Notice::Kind::done, "saved " + in_quotes(file.string())});
   return {};
 }

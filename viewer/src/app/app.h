@@ -43,12 +43,17 @@ class App {
   void open_first();
   void find_left_projects();
   Result<void> frame();
+  std::optional<std::pair<double, double>> recent_latency() const;
+  bool waits_for_events() const;
+  double wait_s() const;
+  double next_frame_s(double now_s) const;
   Result<void> show(const Picture& picture, bool has_new_panels);
   Result<void> play_script();
   Result<bool> play(const ScriptStep& step);
   void take_events(const std::vector<InputEvent>& events);
   void take_news();
   void follow_camera();
+  bool is_view_told() const;
   void ask_for_hover();
   void draw_panels();
   Picture picture() const;
@@ -62,12 +67,16 @@ class App {
   void take_over_path(bool had_clay);
   void tick_haptics(double now_s);
   void cut_slice();
+  std::optional<Chord> chord() const;
+  void note_motion(double now_s);
+  bool is_moving() const;
   SurfaceProbe probe(const Camera::Pixel& pixel);
   void note_last_frame();
   Result<void> take_shots();
   Result<void> turn_table();
   void take_screenshot();
   bool has_ended();
+  void drop_untouched();
   void note_recent();
   void start_empty();
   void keep_settings();
@@ -103,11 +112,16 @@ class App {
   double last_s_ = 0.0;               ///< when the last frame began
   std::pair<int, int> refused_size_;  ///< of the last picture, if the driver could not draw it
   bool is_at_rest_ = false;           ///< the last frame had nothing new to show
-  double busy_until_s_ = 0.0;  ///< until then frames follow each other without waiting for events
-  std::int64_t framed_ = 0;    ///< ClayState::number of the clay that the camera has framed
-  bool has_started_ = false;   ///< the document thread has done the first requests
-  bool has_begun_ = false;     ///< with a clay, or there was none to begin with
-  std::filesystem::path last_file_;     ///< that the title names
+  Lens seen_lens_;                    ///< of the last frame
+  double moved_s_ = 0.0;              ///< when it was last another one
+  bool in_motion_ = false;            ///< that was just now
+  bool is_fluent_ = true;             ///< all of the clay is drawn in less time than a turn needs
+  int frames_to_settle_ = 0;          ///< that follow each other without waiting for events
+  double next_frame_s_ = 0.0;         ///< when one is due without an event
+  std::int64_t framed_ = 0;           ///< ClayState::number of the clay that the camera has framed
+  bool has_started_ = false;          ///< the document thread has done the first requests
+  bool has_begun_ = false;            ///< with a clay, or there was none to begin with
+  std::filesystem::path last_file_;   ///< that the title names
   std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;
   std::vector<double> latency_ms_;

@@ -282,6 +282,7 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
       break;
     case Command::operations:
       ui.panels.is_operations_open = true;
+      ui.operation.voxel_mm = ui.clay.voxel_mm;  // what it is now, to be made finer or coarser
       break;
     case Command::mask_invert:
       edit_mask(MaskEdit::invert, document);

@@ -21,6 +21,7 @@
 #include "document/settings.h"
 #include "picture/camera.h"
 #include "picture/renderer.h"
+#include "picture/slice_chord.h"
 
 namespace argil::viewer {
 
@@ -107,7 +108,7 @@ struct OperationChoice {
   int cut_axis = 2;
   double cut_at_mm = 0.0;
   bool keeps_front = true;
-  double voxel_mm = 0.25;
+  double voxel_mm = 0.25;  ///< of resampling: the clay's when the dialog opens
 };
 
 /// A change of the brush by moving the mouse, until a click (F, Shift+F).
@@ -137,7 +138,8 @@ struct UiState {
 
   Camera::Pixel pointer;
   bool is_pointer_over_clay_view = false;
-  bool is_hand_led = false;  ///< the mouse leads a device's hand, which works the clay
+  std::optional<Chord> chord;  ///< through the slice's material, under the pointer
+  bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
 
   FileWish file_wish = FileWish::none;

@@ -28,7 +28,7 @@ void merge_waiting(ExtendStroke& piece, std::deque<Request>& requests) {
 }  // namespace
 
 DocumentThread::DocumentThread(DocumentThreadOptions options)
-    : options_(std::move(options)), thread_([this] { run(); }) {}
+    : options_(std::move(options)), outbox_(options_.on_news), thread_([this] { run(); }) {}
 
 DocumentThread::~DocumentThread() {
   {
@@ -76,12 +76,14 @@ void DocumentThread::run() {
     lock.unlock();
 
     std::optional<PointerAnswer> answer;
+    bool has_something_new = request || question || has_view || has_plane;
     try {
       if (has_view) worker.look(*view);
       if (has_plane) worker.cut(plane);
       if (request) worker.perform(std::move(*request));
       const bool has_worked = worker.step_hand() || (!request && worker.work_backlog());
       if (request || has_view || has_plane || has_worked) worker.show();
+      has_something_new = has_something_new || has_worked;
       if (question) answer = worker.answer(question->ray, question->touch);
     } catch (const std::bad_alloc&) {
       // The clay is whole; its blocks are sent again with the next thing that is shown.
@@ -92,6 +94,8 @@ void DocumentThread::run() {
     if (answer) answer_ = answer;
     is_busy_ = false;
     has_backlog_ = worker.has_backlog();
+    // Last: whoever wakes finds the thread idle if it is.
+    if (has_something_new) outbox_.announce();
   }
 }
 

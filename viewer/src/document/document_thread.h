@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,6 +22,8 @@ namespace argil::viewer {
 
 struct DocumentThreadOptions {
   std::filesystem::path home;  ///< a folder for what has no name yet
+  /// Called on the thread when there is something to take, once until the blocks are taken.
+  std::function<void()> on_news = {};
 };
 
 /// A thread that owns the document (clay and session), does what is requested in order, and answers
@@ -59,6 +62,9 @@ class DocumentThread {
 
   Task task() const { return outbox_.task(); }
   void cancel_task() noexcept { outbox_.cancel_task(); }
+
+  /// Whether on_news was called since the blocks were taken.
+  bool has_news() const noexcept { return outbox_.has_news(); }
 
   /// All that was sent is done and taken.
   bool is_idle() const;

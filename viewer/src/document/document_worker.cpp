@@ -156,10 +156,8 @@ void DocumentWorker::post_slice() {
   assert(plane_->columns > 1 && plane_->rows > 1);
   is_slice_stale_ = false;
   const Clay& clay = document_.clay();
-  SlicePicture slice{
-      plane_->corner_mm, plane_->along_mm, plane_->down_mm, plane_->columns, plane_->rows, {}, 1.0};
-  // Beyond the narrow band of the coarsest level distances are not known.
-  slice.skin_mm = kHalfWidthVoxels * clay.level_stats().back().voxel_mm;
+  SlicePicture slice{plane_->corner_mm, plane_->along_mm, plane_->down_mm,
+                     plane_->columns,   plane_->rows,     {}};
   slice.distance_mm.reserve(static_cast<std::size_t>(slice.columns) *
                             static_cast<std::size_t>(slice.rows));
   for (int row = 0; row < slice.rows; ++row) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document/message_log.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 #include <utility>
@@ -27,6 +28,14 @@ void MessageLog::tick(double now_s) {
   for (Message& message : messages_) {
     if (message.until_s < now_s) message.is_shown = false;
   }
+}
+
+double MessageLog::next_s() const noexcept {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Message& message : messages_) {
+    if (message.is_shown) next = std::min(next, message.until_s);
+  }
+  return next;
 }
 
 }  // namespace argil::viewer

@@ -29,6 +29,8 @@ class MessageLog {
 
   /// Hides what was shown long enough.
   void tick(double now_s);
+  /// When the next of them is to be hidden; infinite where none is.
+  double next_s() const noexcept;
   void dismiss(std::size_t index) { messages_.at(index).is_shown = false; }
   void clear() { messages_.clear(); }
 

@@ -7,6 +7,10 @@
 
 namespace argil::viewer {
 
+void Outbox::announce() {
+  if (!has_news_.exchange(true) && on_news_) on_news_();
+}
+
 void Outbox::post(Notice notice) {
   const std::lock_guard lock(mutex_);
   notices_.push_back(std::move(notice));
@@ -30,30 +34,32 @@ void Outbox::post_state(ClayState state, std::shared_ptr<const PrintReport> repo
 }
 
 /// The Progress refers to this. It is called on the document thread, at most as often as the work
-/// reports, and costs a lock each time.
+/// reports, and costs a lock each time. The window is told at once: other news of the thread wait
+/// for the end of what is done.
 Progress Outbox::begin_task(std::string name) {
   // Before the lock: who cancels now means the task that begins.
   cancels_ = false;
-  const std::lock_guard lock(mutex_);
-  task_ = {true, true, name, 0.0};
+  set_task({true, true, name, 0.0});
   return [this, name = std::move(name)](std::string_view stage, double fraction) {
-    const std::lock_guard locked(mutex_);
-    task_ = {true, true, stage.empty() ? name : std::string(stage), fraction};
+    set_task({true, true, stage.empty() ? name : std::string(stage), fraction});
     return !cancels_ && !is_ending_;
   };
 }
 
-void Outbox::begin_silent_task(std::string name) {
-  const std::lock_guard lock(mutex_);
-  task_ = {true, false, std::move(name), 0.0};
-}
+void Outbox::begin_silent_task(std::string name) { set_task({true, false, std::move(name), 0.0}); }
 
-void Outbox::end_task() {
-  const std::lock_guard lock(mutex_);
-  task_ = {};
+void Outbox::end_task() { set_task({}); }
+
+void Outbox::set_task(Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    task_ = std::move(task);
+  }
+  announce();
 }
 
 BlockNews Outbox::take_blocks(std::vector<double>& shown_inputs_s) {
+  has_news_ = false;  // before: what is posted from now on is announced again
   const std::lock_guard lock(mutex_);
   shown_inputs_s = std::exchange(shown_inputs_s_, {});
   return std::exchange(news_, {});

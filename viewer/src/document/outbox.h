@@ -3,10 +3,12 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/core/progress.h"
@@ -39,6 +41,14 @@ struct PointerAnswer {
 /// Threads  any: every call holds the lock for as long as a move or a copy takes.
 class Outbox {
  public:
+  /// `on_news` is called by whoever posts, once until the blocks are taken, which the window does
+  /// first: it wakes the window.
+  explicit Outbox(std::function<void()> on_news = {}) : on_news_(std::move(on_news)) {}
+
+  /// Something was posted, or is there to be seen elsewhere.
+  void announce();
+  bool has_news() const noexcept { return has_news_; }
+
   void post(Notice notice);
   void post_blocks(BlockNews news, const std::vector<double>& shown_inputs_s);
   void post_slice(SlicePicture slice);
@@ -64,6 +74,8 @@ class Outbox {
   Task task() const;
 
  private:
+  void set_task(Task task);
+
   mutable std::mutex mutex_;
   BlockNews news_;
   std::vector<double> shown_inputs_s_;
@@ -72,6 +84,8 @@ class Outbox {
   ClayState state_;
   std::shared_ptr<const PrintReport> report_;
   Task task_;
+  std::function<void()> on_news_;
+  std::atomic<bool> has_news_{false};
   std::atomic<bool> cancels_{false};
   std::atomic<bool> is_ending_{false};
 };

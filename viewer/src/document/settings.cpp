@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document/settings.h"
 
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <system_error>
 
@@ -13,6 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFile = "settings.txt";
 constexpr const char* kNumberViews = "number_views";
+constexpr const char* kPanelPercent = "panel_percent";
 constexpr const char* kPrinter = "printer";
 constexpr const char* kFirmware = "falcon_firmware";
 constexpr const char* kUnasked = "unasked";
@@ -26,10 +29,18 @@ std::string lines_of(const Settings& settings) {
     if (!value.empty()) lines.append(name).append(" ").append(value).append("\n");
   };
   add(kNumberViews, settings.has_number_views ? "1" : "0");
+  add(kPanelPercent, std::to_string(settings.panel_percent));
   add(kPrinter, settings.printer);
   add(kFirmware, settings.firmware.string());
   for (const std::string& one : settings.unasked) add(kUnasked, one);
   return lines;
+}
+
+/// Within the range of kPanelPercents; 100 for what is no number.
+int percent_of(const std::string& value) {
+  int percent = 100;
+  std::from_chars(value.data(), value.data() + value.size(), percent);
+  return std::clamp(percent, kPanelPercents.front(), kPanelPercents.back());
 }
 
 /// Replaces the file whole, so that another window never reads half of it.
@@ -51,6 +62,7 @@ Settings read_settings(const fs::path& home) {
     const std::string name = line.substr(0, blank);
     const std::string value = line.substr(blank + 1);
     if (name == kNumberViews) settings.has_number_views = value == "1";
+    if (name == kPanelPercent) settings.panel_percent = percent_of(value);
     if (name == kPrinter) settings.printer = value;
     if (name == kFirmware) settings.firmware = value;
     if (name == kUnasked && !value.empty()) settings.unasked.push_back(value);
@@ -64,6 +76,7 @@ Result<void> write_changes(const fs::path& home, const Settings& before, const S
   if (after.has_number_views != before.has_number_views) {
     settings.has_number_views = after.has_number_views;
   }
+  if (after.panel_percent != before.panel_percent) settings.panel_percent = after.panel_percent;
   if (after.printer != before.printer) settings.printer = after.printer;
   if (after.firmware != before.firmware) settings.firmware = after.firmware;
   if (after.unasked != before.unasked) settings.unasked = after.unasked;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 
 namespace argil::viewer {
 
+/// What Settings::panel_percent may be chosen from.
+inline constexpr std::array kPanelPercents{75, 100, 125, 150, 175, 200, 250, 300};
+
 /// What the user chose once for all sculptures.
 struct Settings {
   bool has_number_views = false;  ///< the number row is taken for the numpad, for keyboards without
@@ -16,6 +20,7 @@ struct Settings {
   std::filesystem::path firmware;  ///< that a Falcon without one is sent; "": of the environment
   /// Projects of killed windows that are not asked about any more, as LeftProject::state.
   std::vector<std::string> unasked = {};
+  int panel_percent = 100;  ///< size of panels and letters, of what the screen asks for; 75 to 300
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gl/gl_clay.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -65,22 +66,58 @@ double pixel_mm_at(const EyeView& eye, const Vec3& place_mm) noexcept {
   return 2.0 * eye.lens.tan_y * std::abs(away) / eye.part.height;
 }
 
-std::vector<BoundPlane> bounds_of(const Lens& lens, const ClipPlane& cut) {
-  const Vec3& eye = lens.eye_mm;
-  std::vector<BoundPlane> planes{plane_at(eye - lens.near_mm * lens.back, -lens.back),
-                                 plane_at(eye - lens.far_mm * lens.back, lens.back)};
-  // The sides go through the eye, or stand parallel to the view; normals need no unit length here.
-  for (const double side : {-1.0, 1.0}) {
-    if (lens.is_parallel) {
-      planes.push_back(plane_at(eye + side * lens.tan_x * lens.right, -side * lens.right));
-      planes.push_back(plane_at(eye + side * lens.tan_y * lens.up, -side * lens.up));
-    } else {
-      planes.push_back(plane_at(eye, -side * lens.right - lens.tan_x * lens.back));
-      planes.push_back(plane_at(eye, -side * lens.up - lens.tan_y * lens.back));
-    }
-  }
+std::vector<BoundPlane> bounds_of(const EyeView& eye, const PixelRect& area, const ClipPlane& cut) {
+  const Lens& lens = eye.lens;
+  const PixelRect& part = eye.part;
+  const Vec3& at = lens.eye_mm;
+  std::vector<BoundPlane> planes{plane_at(at - lens.near_mm * lens.back, -lens.back),
+                                 plane_at(at - lens.far_mm * lens.back, lens.back)};
+  // A side goes through the eye, or stands parallel to the view: on `inward` of a column or row, so
+  // many pixels from the part's beginning. Normals need no unit length here.
+  const auto add = [&](const Vec3& axis, double tangent, double pixel, int pixels, double inward) {
+    const double slope = (2.0 * pixel / pixels - 1.0) * tangent;
+    planes.push_back(lens.is_parallel ? plane_at(at + slope * axis, inward * axis)
+                                      : plane_at(at, inward * (axis + slope * lens.back)));
+  };
+  assert(part.width > 0 && part.height > 0);
+  add(lens.right, lens.tan_x, area.x - part.x, part.width, 1.0);
+  add(lens.right, lens.tan_x, area.x - part.x + area.width, part.width, -1.0);
+  add(lens.up, lens.tan_y, area.y - part.y, part.height, 1.0);
+  add(lens.up, lens.tan_y, area.y - part.y + area.height, part.height, -1.0);
   if (cut) planes.push_back(*cut);
   return planes;
+}
+
+PixelRect area_of(const EyeView& eye, const Box3& box_mm) {
+  const Lens& lens = eye.lens;
+  constexpr double kBeyond = 1e6;  // pixels: far outside of any picture
+  double left = kBeyond;
+  double right = -kBeyond;
+  double bottom = kBeyond;
+  double top = -kBeyond;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3 p{(corner & 1U) != 0 ? box_mm.max.x : box_mm.min.x,
+                 (corner & 2U) != 0 ? box_mm.max.y : box_mm.min.y,
+                 (corner & 4U) != 0 ? box_mm.max.z : box_mm.min.z};
+    const Vec3 to = p - lens.eye_mm;
+    const double away = -dot(to, lens.back);
+    if (away < lens.near_mm && !lens.is_parallel) return eye.part;
+    const double over = lens.is_parallel ? 1.0 : away;
+    const double x = 0.5 * eye.part.width * (1.0 + dot(to, lens.right) / (over * lens.tan_x));
+    const double y = 0.5 * eye.part.height * (1.0 + dot(to, lens.up) / (over * lens.tan_y));
+    left = std::min(left, x);
+    right = std::max(right, x);
+    bottom = std::min(bottom, y);
+    top = std::max(top, y);
+  }
+  constexpr double kMargin = 2.0;
+  const auto within = [](double pixel, int pixels) {
+    return static_cast<int>(std::clamp(pixel, 0.0, static_cast<double>(pixels)));
+  };
+  const int x = within(std::floor(left - kMargin), eye.part.width);
+  const int y = within(std::floor(bottom - kMargin), eye.part.height);
+  return {eye.part.x + x, eye.part.y + y, within(std::ceil(right + kMargin), eye.part.width) - x,
+          within(std::ceil(top + kMargin), eye.part.height) - y};
 }
 
 Result<GlClay> GlClay::make(ObjectCount& count) {

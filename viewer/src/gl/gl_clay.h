@@ -27,8 +27,12 @@ double pixel_mm_at(const EyeView& eye, const Vec3& place_mm) noexcept;
 /// What a picture cuts away so that its slice is seen: all on the negative side.
 using ClipPlane = std::optional<BoundPlane>;
 
-/// The planes that bound what an eye sees.
-std::vector<BoundPlane> bounds_of(const Lens& lens, const ClipPlane& cut);
+/// The planes that bound what an eye sees in a part of its picture.
+std::vector<BoundPlane> bounds_of(const EyeView& eye, const PixelRect& area, const ClipPlane& cut);
+
+/// The part of an eye's picture that holds all of a box, and two pixels around it: rounding and
+/// what is smoothed along edges. All of the picture for a box that reaches behind the eye.
+PixelRect area_of(const EyeView& eye, const Box3& box_mm);
 
 /// Draws blocks in each shading, and their edges.
 class GlClay {

@@ -152,7 +152,7 @@ void main() {
 }
 )";
 
-/// A cut: density in bands of a quarter, and the surface as a line.
+/// A cut: the material hatched as in an engineer's drawing, and the surface as a line.
 inline constexpr const char* kSliceVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 texel;
@@ -167,26 +167,14 @@ void main() {
 inline constexpr const char* kSliceFragment = R"(
 in vec2 uv;
 uniform sampler2D distance_mm;
-uniform float skin_mm;
+uniform float hatch_pixels;  // from line to line
 out vec4 picture;
-// S. van der Walt and N. Smith's viridis at nine steps, in linear light.
-const vec3 kMap[9] = vec3[](vec3(0.0578, 0.0003, 0.0888), vec3(0.0630, 0.0252, 0.1892),
-                            vec3(0.0438, 0.0834, 0.2546), vec3(0.0252, 0.1559, 0.2705),
-                            vec3(0.0151, 0.2789, 0.2623), vec3(0.0192, 0.4020, 0.1912),
-                            vec3(0.1119, 0.5776, 0.1248), vec3(0.3864, 0.7230, 0.0356),
-                            vec3(0.9823, 0.7991, 0.0185));
-vec3 map_color(float t) {
-  float at = 8.0 * clamp(t, 0.0, 1.0);
-  int below = min(int(at), 7);
-  return mix(kMap[below], kMap[below + 1], at - float(below));
-}
 void main() {
   float mm = texture(distance_mm, uv).r;
-  float density = max(1.0 - mm / skin_mm, 0.0);
-  // Bands of a quarter up to four skin depths inside.
-  float band = min(floor(4.0 * density) / 4.0, 4.75);
-  vec3 color = map_color(0.08 + 0.92 * band / (band + 1.0) * 1.2);
-  float covered = density <= 0.0 ? 0.0 : (density < 1.0 ? 0.75 : 1.0);
+  float covered = mm < 0.0 ? 1.0 : 0.0;
+  float across = mod((gl_FragCoord.x + gl_FragCoord.y) / 1.41421356, hatch_pixels);
+  float on_hatch = clamp(1.3 - min(across, hatch_pixels - across), 0.0, 1.0);
+  vec3 color = mix(vec3(0.30, 0.125, 0.070), vec3(0.055, 0.022, 0.013), 0.8 * on_hatch);
   float pixels = abs(mm) / max(fwidth(mm), 1e-9);
   float on_line = clamp(1.7 - pixels, 0.0, 1.0);
   color = mix(color, vec3(0.004), on_line);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gl/gl_marks.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "gl/gl_clay_shaders.h"
 #include "gl/gl_mark_shaders.h"
 #include "gl/gl_mark_shapes.h"
@@ -17,6 +21,7 @@ constexpr double kHiddenRing = 0.34;
 constexpr double kHiddenPlane = 0.15;
 constexpr double kPlaneAlpha = 0.16;
 constexpr double kPatchAlpha = 0.30;
+constexpr double kFaint = 0.5;  // a frame without a fill, of its colour
 /// Of a parallel lens: how much nearer marks are seen, as a fraction of what is between its planes.
 constexpr double kNearerFraction = 0.003;
 
@@ -35,6 +40,26 @@ void set_eye(const GlProgram& program, const EyeView& eye) {
 bool faces(const Lens& lens, const RingMark& ring) {
   const Vec3 to_eye = lens.is_parallel ? lens.back : lens.eye_mm - ring.center_mm;
   return dot(ring.normal, to_eye) > 0.0;
+}
+
+/// Sorts triangles so that the nearer ones are drawn over the others.
+void sort_from_afar(std::vector<SolidVertex>& solids, const Lens& lens) {
+  using Corners = std::array<SolidVertex, 3>;
+  std::vector<std::pair<double, Corners>> sorted;
+  for (std::size_t n = 0; n + 2 < solids.size(); n += 3) {
+    const Corners corners{solids[n], solids[n + 1], solids[n + 2]};
+    double nearness = 0.0;
+    for (const SolidVertex& corner : corners) {
+      const auto& p = corner.position;
+      nearness += dot(lens.back, {double{p[0]}, double{p[1]}, double{p[2]}});
+    }
+    sorted.emplace_back(nearness, corners);
+  }
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  solids.clear();
+  for (const auto& [nearness, corners] : sorted)
+    solids.insert(solids.end(), corners.begin(), corners.end());
 }
 
 int count_of(const auto& vertices) { return static_cast<int>(vertices.size()); }
@@ -82,12 +107,14 @@ void GlMarks::draw_planes(const Picture& picture, const EyeView& eye) const {
   std::vector<SolidVertex> fills;
   std::vector<LineVertex> edges;
   for (const PlaneMark& plane : picture.planes) {
-    add_fill(fills, plane_corners(plane), plane.color, kPlaneAlpha);
-    add_loop(edges, plane_corners(plane), plane.color);
+    if (plane.is_filled) add_fill(fills, plane_corners(plane), plane.color, kPlaneAlpha);
+    add_loop(edges, plane_corners(plane), plane.is_filled ? plane.color : kFaint * plane.color);
   }
   glDepthFunc(GL_LEQUAL);
-  set_eye(solids_, eye);
-  solid_stream_.draw<SolidVertex>(GL_TRIANGLES, fills);
+  if (!fills.empty()) {
+    set_eye(solids_, eye);
+    solid_stream_.draw<SolidVertex>(GL_TRIANGLES, fills);
+  }
   set_eye(lines_, eye);
   lines_.set("half_width", kRingHalfPixels);
   send(line_stream_, edges);
@@ -135,13 +162,9 @@ void GlMarks::draw_arrows(const Picture& picture, const EyeView& eye) const {
   std::vector<SolidVertex> solids;
   for (const ArrowMark& arrow : picture.arrows)
     add_arrow(solids, arrow, pixel_mm_at(eye, 0.5 * (arrow.from_mm + arrow.to_mm)));
-  // Always seen, and hiding each other only.
-  glDepthMask(GL_TRUE);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_SCISSOR_TEST);
-  glDepthFunc(GL_LEQUAL);
+  // Always seen, and hiding each other only: the depth is the clay's.
+  sort_from_afar(solids, eye.lens);
+  glDisable(GL_DEPTH_TEST);
   set_eye(solids_, eye);
   solid_stream_.draw<SolidVertex>(GL_TRIANGLES, solids);
 }

@@ -11,7 +11,7 @@
 
 namespace argil::viewer {
 
-/// Rings, lines, arrows, planes and pins over a drawn picture. Changes the picture's depth.
+/// Rings, lines, arrows, planes and pins over a drawn picture, whose depth stays the clay's.
 class GlMarks {
  public:
   static Result<GlMarks> make(ObjectCount& count);

@@ -111,7 +111,7 @@ Result<void> GlOverlay::draw(ObjectCount& count, Overlay overlay, const GlTarget
   // Faces are flatter than the clay: their bends need a wider mean.
   if (is_curvature) smooth(second_, first_, eye, nothing);
 
-  targets.bind_picture();
+  targets.bind_clay();
   glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
   bind_texture(kValuesUnit, is_curvature ? first_.texture.name() : second_.texture.name());
   blend_product();

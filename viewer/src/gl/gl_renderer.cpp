@@ -2,7 +2,9 @@
 // A picture is drawn into targets of the renderer's own and then copied to where it is shown, so
 // that it can be shown again below other panels without being drawn. For each eye, in this order:
 // the background; the clay, whose depth is then kept; occlusion or curvature, worked out from that
-// depth; the slice; the marks. All that follows the clay may overwrite colour and depth freely.
+// depth; the slice. This is the clay's layer, which stays as long as neither the lens nor the
+// shading changes; where blocks change, the parts of it that show them are drawn anew. The picture
+// is a copy of it with the marks.
 #include "gl/gl_renderer.h"
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <optional>
 
 #include <epoxy/gl.h>
+#include <malloc.h>
 
 #include "gl/gl_blocks.h"
 #include "gl/gl_clay.h"
@@ -21,6 +24,7 @@
 #include "gl/gl_screen_shaders.h"
 #include "gl/gl_slice.h"
 #include "gl/gl_targets.h"
+#include "gl/gl_touched.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -69,6 +73,19 @@ bool is_drawable(const std::optional<SlicePicture>& slice) {
   return slice && slice->columns > 0 && slice->rows > 0;
 }
 
+/// Whether two pictures differ in their marks alone.
+bool have_same_clay(const Picture& a, const Picture& b) {
+  return a.lens == b.lens && a.right_lens == b.right_lens && a.shading == b.shading &&
+         a.has_wires == b.has_wires && a.has_occlusion == b.has_occlusion &&
+         a.is_moving == b.is_moving && a.slice == b.slice;
+}
+
+/// Whether a pixel of the clay shows what is around it.
+bool has_overlay(const Picture& picture) {
+  return picture.shading == Shading::curvature ||
+         (picture.shading == Shading::plain && picture.has_occlusion);
+}
+
 /// What others who draw in this context may have left on.
 void reset_state() {
   for (const GLenum off :
@@ -91,25 +108,27 @@ void reset_state() {
 class GlRenderer final : public Renderer {
  public:
   GlRenderer(std::unique_ptr<ObjectCount> count, std::unique_ptr<GlDebug> debug, Passes passes,
-             int samples)
+             const GlRendererOptions& options)
       : debug_(std::move(debug)),
         count_(std::move(count)),
         passes_(std::move(passes)),
-        blocks_(*count_),
-        targets_(*count_, samples) {
-    assert(samples >= 0);
+        blocks_(*count_, options.has_coarse),
+        targets_(*count_, options.samples) {
+    assert(options.samples >= 0);
   }
 
   Result<void> put(const BlockMesh& block) override {
-    drawn_.reset();
+    touch(block.id);
+    touched_.add(block.bounds_mm);
     return blocks_.put(block);
   }
   void drop(const BlockId& id) override {
-    drawn_.reset();
+    touch(id);
     blocks_.drop(id);
   }
   void clear() override {
     drawn_.reset();
+    touched_.add_all();
     blocks_.clear();
   }
   Result<void> draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
@@ -120,8 +139,10 @@ class GlRenderer final : public Renderer {
   std::string last_error() const override { return debug_->last_error(); }
 
  private:
+  void touch(const BlockId& id);
   Result<void> draw_picture(const Picture& picture, int width, int height);
-  Result<void> draw_eye(const Picture& picture, const EyeView& eye);
+  Result<void> draw_clay(const Picture& picture);
+  Result<void> draw_area(const Picture& picture, const EyeView& eye, const PixelRect& area);
   Result<void> draw_overlay(const Picture& picture, const EyeView& eye);
 
   std::unique_ptr<GlDebug> debug_;
@@ -130,8 +151,11 @@ class GlRenderer final : public Renderer {
   GlBlocks blocks_;
   GlTargets targets_;
   std::optional<Picture> drawn_;  ///< what the targets hold; none: not the blocks as they are now
+  std::optional<Picture> drawn_clay_;  ///< what the clay's layer holds, up to what was touched
+  Touched touched_;
   std::vector<EyeView> drawn_eyes_;  ///< of the last picture
   std::int64_t drawn_pictures_ = 0;
+  std::int64_t whole_pictures_ = 0;
   std::int64_t drawn_triangles_ = 0;
 };
 
@@ -145,6 +169,7 @@ Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int 
     targets_.show(framebuffer);
   } else {
     drawn_.reset();
+    drawn_clay_.reset();
     drawn_eyes_.clear();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -155,19 +180,47 @@ Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int 
   return drawn;
 }
 
-/// Draws all eyes. Uploads the slice's values, which change with the picture.
+/// The place of a block in the picture is to be drawn anew.
+void GlRenderer::touch(const BlockId& id) {
+  drawn_.reset();
+  if (const auto former = blocks_.bounds_of(id)) touched_.add(*former);
+}
+
 Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int height) {
+  const bool is_resized = width != targets_.width() || height != targets_.height();
   if (auto made = targets_.resize(width, height); !made) return made;
-  if (is_drawable(picture.slice)) passes_.slice.take(*count_, *picture.slice);
-  targets_.bind_picture();
-  glClear(GL_DEPTH_BUFFER_BIT);
-  drawn_triangles_ = 0;
+  if (is_resized || !drawn_clay_ || !have_same_clay(*drawn_clay_, picture)) touched_.add_all();
   drawn_eyes_ = eyes_of(picture, width, height);
+  if (!touched_.empty()) {
+    if (auto drawn = draw_clay(picture); !drawn) return drawn;
+  }
+  targets_.begin_picture();
   for (const EyeView& eye : drawn_eyes_) {
-    if (auto drawn = draw_eye(picture, eye); !drawn) return drawn;
+    glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
+    passes_.marks.draw(picture, eye, targets_);
   }
   drawn_ = picture;
   ++drawn_pictures_;
+  return {};
+}
+
+/// Draws what was touched. Uploads the slice's values where they are new.
+Result<void> GlRenderer::draw_clay(const Picture& picture) {
+  if (is_drawable(picture.slice) && !(drawn_clay_ && drawn_clay_->slice == picture.slice)) {
+    passes_.slice.take(*count_, *picture.slice);
+  }
+  if (has_overlay(picture)) touched_.add_all();
+  drawn_triangles_ = 0;
+  bool is_whole = true;
+  for (const EyeView& eye : drawn_eyes_) {
+    for (const PixelRect& area : touched_.areas_in(eye)) {
+      is_whole = is_whole && area == eye.part;
+      if (auto drawn = draw_area(picture, eye, area); !drawn) return drawn;
+    }
+  }
+  if (is_whole) ++whole_pictures_;
+  drawn_clay_ = picture;
+  touched_.clear();
   return {};
 }
 
@@ -175,9 +228,13 @@ bool GlRenderer::holds(const Picture& picture, int width, int height) const {
   return drawn_ && width == targets_.width() && height == targets_.height() && *drawn_ == picture;
 }
 
-Result<void> GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
-  targets_.bind_picture();
+Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
+                                   const PixelRect& area) {
+  targets_.bind_clay();
   glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(area.x, area.y, area.width, area.height);
+  glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   // One triangle that covers the screen, made from the numbers of its corners; OpenGL's core
@@ -188,25 +245,29 @@ Result<void> GlRenderer::draw_eye(const Picture& picture, const EyeView& eye) {
 
   const bool has_slice = is_drawable(picture.slice);
   const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
-  drawn_triangles_ += blocks_.choose(bounds_of(eye.lens, cut));
+  // A cut shows the inside, which looks away.
+  drawn_triangles_ += blocks_.choose(
+      {bounds_of(eye, area, cut), has_slice ? nullptr : &eye.lens, picture.is_moving});
   passes_.clay.draw(blocks_, picture, eye, cut);
-  // Kept before the marks are drawn: strokes and occlusion are about the clay alone. Only of this
-  // eye: beside it lie the marks of the one before.
-  targets_.keep_depth(eye.part);
+  // Kept before the slice is drawn: strokes and occlusion are about the clay alone.
+  targets_.keep_depth(area);
   glBindVertexArray(passes_.nothing.name());
-  if (auto drawn = draw_overlay(picture, eye); !drawn) return drawn;
-  targets_.bind_picture();
+  if (has_overlay(picture)) {
+    // It is drawn at another size, and only of all that an eye sees.
+    glDisable(GL_SCISSOR_TEST);
+    if (auto drawn = draw_overlay(picture, eye); !drawn) return drawn;
+    glEnable(GL_SCISSOR_TEST);
+  }
+  targets_.bind_clay();
   if (has_slice) passes_.slice.draw(*picture.slice, eye);
-  passes_.marks.draw(picture, eye, targets_);
+  glDisable(GL_SCISSOR_TEST);
   return {};
 }
 
 Result<void> GlRenderer::draw_overlay(const Picture& picture, const EyeView& eye) {
-  if (picture.shading == Shading::plain && picture.has_occlusion)
-    return passes_.overlay.draw(*count_, Overlay::occlusion, targets_, eye);
-  if (picture.shading == Shading::curvature)
-    return passes_.overlay.draw(*count_, Overlay::curvature, targets_, eye);
-  return {};
+  const bool is_curvature = picture.shading == Shading::curvature;
+  return passes_.overlay.draw(*count_, is_curvature ? Overlay::curvature : Overlay::occlusion,
+                              targets_, eye);
 }
 
 DepthMap GlRenderer::read_depth(std::size_t eye) {
@@ -255,6 +316,7 @@ Image GlRenderer::read_image(unsigned framebuffer, int width, int height) {
 RendererCounts GlRenderer::counts() const {
   RendererCounts counts;
   counts.pictures = drawn_pictures_;
+  counts.whole_pictures = whole_pictures_;
   counts.blocks = blocks_.blocks();
   counts.triangles = blocks_.triangles();
   counts.drawn_triangles = drawn_triangles_;
@@ -271,17 +333,31 @@ std::string text_of(GLenum name) {
   return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
-/// A software renderer takes four times as long for four samples.
-int samples_of_card() {
-  if (text_of(GL_RENDERER).find("llvmpipe") != std::string::npos) return 0;
+/// A software renderer asks for tens of megabytes in each frame and gives them back: they stay with
+/// the process, or every frame would begin with page faults (a fifth of its time at a million
+/// triangles).
+void keep_frame_memory() {
+#ifdef __GLIBC__
+  constexpr int kMostKept = 256 << 20;
+  mallopt(M_TRIM_THRESHOLD, kMostKept);
+  mallopt(M_MMAP_THRESHOLD, kMostKept / 4);
+#endif
+}
+
+bool is_software() { return text_of(GL_RENDERER).find("llvmpipe") != std::string::npos; }
+
+/// A software renderer takes four times as long for four samples, and cannot turn a large clay
+/// fluently in full detail, which a graphics card can.
+GlRendererOptions options_of_card() {
+  if (is_software()) return {0, true};
   GLint most = 0;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  return std::min(kSamples, most);
+  return {std::min(kSamples, most), false};
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples) {
+Result<std::unique_ptr<Renderer>> make_gl_renderer_with(const GlRendererOptions& options) {
   constexpr int kLeastVersion = 33;  // as epoxy counts: ten times the version
   if (!epoxy_is_desktop_gl() || epoxy_gl_version() < kLeastVersion) {
     return Error{ErrorKind::device, "the viewer needs OpenGL 3.3 and this is " +
@@ -293,11 +369,12 @@ Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples) {
   auto passes = Passes::make(*count);
   if (!passes) return passes.error();
   return std::unique_ptr<Renderer>(std::make_unique<GlRenderer>(
-      std::move(count), std::move(debug), std::move(passes).value(), samples));
+      std::move(count), std::move(debug), std::move(passes).value(), options));
 }
 
 Result<std::unique_ptr<Renderer>> make_gl_renderer() {
-  return make_gl_renderer_with(samples_of_card());
+  if (is_software()) keep_frame_memory();
+  return make_gl_renderer_with(options_of_card());
 }
 
 }  // namespace argil::viewer

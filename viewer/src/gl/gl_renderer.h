@@ -13,8 +13,12 @@ namespace argil::viewer {
 /// Errors  device when the context is older or a shader does not compile, with OpenGL's words.
 Result<std::unique_ptr<Renderer>> make_gl_renderer();
 
-/// As make_gl_renderer, with so many samples a pixel: 0 for no multisampling. Tests draw with
-/// several where make_gl_renderer would not.
-Result<std::unique_ptr<Renderer>> make_gl_renderer_with(int samples);
+struct GlRendererOptions {
+  int samples = 0;          ///< a pixel; 0: no multisampling
+  bool has_coarse = false;  ///< Picture::is_moving is drawn with about a third of the triangles
+};
+
+/// As make_gl_renderer, which chooses by the card. Tests draw also as it would not.
+Result<std::unique_ptr<Renderer>> make_gl_renderer_with(const GlRendererOptions& options);
 
 }  // namespace argil::viewer

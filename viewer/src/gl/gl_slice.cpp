@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gl/gl_slice.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -65,7 +66,10 @@ void GlSlice::draw(const SlicePicture& slice, const EyeView& eye) const {
   program_.use();
   program_.set("view_projection", view_projection(eye.lens));
   program_.set("distance_mm", 0);
-  program_.set("skin_mm", slice.skin_mm);
+  // So far apart from line to line, whatever the screen's scale.
+  constexpr double kLeastPixels = 8.0;
+  constexpr double kPictureHeights = 0.011;
+  program_.set("hatch_pixels", std::max(kLeastPixels, kPictureHeights * eye.part.height));
   bind_texture(0, distances_.name());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);

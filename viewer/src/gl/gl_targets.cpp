@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <sstream>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -45,7 +46,7 @@ Result<void> GlTargets::resize(int width, int height) {
   if (width == width_ && height == height_) return {};
   width_ = 0;
   height_ = 0;
-  if (auto made = make_picture(width, height); !made) return made;
+  if (auto made = make_layers(width, height); !made) return made;
   if (auto made = make_kept(width, height); !made) return made;
   width_ = width;
   height_ = height;
@@ -54,17 +55,21 @@ Result<void> GlTargets::resize(int width, int height) {
 
 // New objects rather than new storage: attachments of framebuffers stay complete.
 
-Result<void> GlTargets::make_picture(int width, int height) {
-  picture_ = GlFramebuffer(count_);
-  color_ = GlRenderbuffer(count_);
+Result<void> GlTargets::make_layers(int width, int height) {
   depth_ = GlRenderbuffer(count_);
-  store(color_, samples_, GL_RGBA8, width, height);
   // 32 bits of float: strokes are measured by this depth (SurfaceProbe).
   store(depth_, samples_, GL_DEPTH_COMPONENT32F, width, height);
-  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
-  attach_buffer(GL_COLOR_ATTACHMENT0, color_);
-  attach_buffer(GL_DEPTH_ATTACHMENT, depth_);
-  return check_framebuffer(width, height, samples_);
+  for (const auto& [layer, color] :
+       {std::pair<GlFramebuffer&, GlRenderbuffer&>{clay_, clay_color_}, {picture_, color_}}) {
+    layer = GlFramebuffer(count_);
+    color = GlRenderbuffer(count_);
+    store(color, samples_, GL_RGBA8, width, height);
+    glBindFramebuffer(GL_FRAMEBUFFER, layer.name());
+    attach_buffer(GL_COLOR_ATTACHMENT0, color);
+    attach_buffer(GL_DEPTH_ATTACHMENT, depth_);
+    if (auto made = check_framebuffer(width, height, samples_); !made) return made;
+  }
+  return {};
 }
 
 Result<void> GlTargets::make_kept(int width, int height) {
@@ -88,34 +93,35 @@ Result<void> GlTargets::make_kept(int width, int height) {
   return check_framebuffer(width, height, 0);
 }
 
-void GlTargets::bind_picture() const { glBindFramebuffer(GL_FRAMEBUFFER, picture_.name()); }
+void GlTargets::bind_clay() const { glBindFramebuffer(GL_FRAMEBUFFER, clay_.name()); }
+
+void GlTargets::begin_picture() const {
+  copy_color(clay_, picture_.name());
+  glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
+}
 
 void GlTargets::keep_depth(const PixelRect& part) const {
   const int right = part.x + part.width;
   const int top = part.y + part.height;
   assert(part.x >= 0 && part.y >= 0 && right <= width_ && top <= height_);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, clay_.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
   glBlitFramebuffer(part.x, part.y, right, top, part.x, part.y, right, top, GL_DEPTH_BUFFER_BIT,
                     GL_NEAREST);
 }
 
-void GlTargets::keep_color() const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+void GlTargets::copy_color(const GlFramebuffer& from, unsigned to) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void GlTargets::keep_color() const { copy_color(clay_, kept_.name()); }
+
 void GlTargets::show(unsigned framebuffer) const {
   // Several samples may only become one in the same format, which a window's need not be.
-  if (samples_ > 0) {
-    keep_color();
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
-  } else {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.name());
-  }
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  if (samples_ > 0) copy_color(picture_, kept_.name());
+  copy_color(samples_ > 0 ? kept_ : picture_, framebuffer);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 

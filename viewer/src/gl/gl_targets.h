@@ -14,6 +14,8 @@ struct PixelRect {
   int y = 0;
   int width = 0;
   int height = 0;
+  bool empty() const noexcept { return width <= 0 || height <= 0; }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
 /// Whether the driver can draw into the framebuffer that is bound, whose attachments were made of
@@ -21,8 +23,10 @@ struct PixelRect {
 /// Errors  device, naming both, what the driver takes at most, and the remedy.
 Result<void> check_framebuffer(int width, int height, int samples);
 
-/// Where pictures are drawn before they are shown: colour and 32-bit depth, with several samples a
-/// pixel or one, and textures that keep both while the picture goes on.
+/// Where pictures are drawn before they are shown, in two layers of colour over one 32-bit depth,
+/// with several samples a pixel or one: the clay, and the picture, which is a copy of it with the
+/// marks, so that marks that move do not cost a drawing of the clay. Textures keep the clay's depth
+/// and colour while it is drawn further.
 class GlTargets {
  public:
   /// `samples` a pixel, 0 for one without multisampling.
@@ -31,12 +35,15 @@ class GlTargets {
   /// Makes all of this size, when they are not.
   /// Errors  as check_framebuffer; nothing can be drawn then until another size was made.
   Result<void> resize(int width, int height);
-  /// Draws go into the picture from now on.
-  void bind_picture() const;
-  /// Copies the depth of a part of the picture into the texture.
+  /// Draws go into the clay's layer from now on.
+  void bind_clay() const;
+  /// The picture becomes a copy of the clay's colours, and draws go into it; its depth is the
+  /// clay's, which they must leave as it is.
+  void begin_picture() const;
+  /// Copies the depth of a part of the clay's layer into the texture.
   void keep_depth(const PixelRect& part) const;
   unsigned kept_depth() const noexcept { return depth_texture_.name(); }
-  /// Copies the picture's colour into the other texture, with one sample a pixel.
+  /// Copies the colour of the clay's layer into the other texture, with one sample a pixel.
   void keep_color() const;
   unsigned kept_color() const noexcept { return color_texture_.name(); }
   /// Copies the picture's colour into a framebuffer of the same size.
@@ -49,17 +56,20 @@ class GlTargets {
   int height() const noexcept { return height_; }
 
  private:
-  Result<void> make_picture(int width, int height);
+  Result<void> make_layers(int width, int height);
+  void copy_color(const GlFramebuffer& from, unsigned to) const;
   Result<void> make_kept(int width, int height);
 
   ObjectCount& count_;
   int samples_;
   int width_ = 0;
   int height_ = 0;
+  GlFramebuffer clay_;
   GlFramebuffer picture_;
+  GlRenderbuffer clay_color_;
   GlRenderbuffer color_;
-  GlRenderbuffer depth_;
-  GlFramebuffer kept_;  ///< of the textures
+  GlRenderbuffer depth_;  ///< of both
+  GlFramebuffer kept_;    ///< of the textures
   GlTexture depth_texture_;
   GlTexture color_texture_;
 };

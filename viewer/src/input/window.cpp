@@ -84,7 +84,10 @@ Window::~Window() {
 
 void Window::measure() {
   // On displays with a scale the framebuffer has more pixels than the window has units.
+  const std::pair former{width_, height_};
   glfwGetFramebufferSize(window_, &width_, &height_);
+  // Of a window that was made smaller nothing is exposed.
+  if (former != std::pair{width_, height_}) is_exposed_ = true;
   float x = 1.0F;
   float y = 1.0F;
   glfwGetWindowContentScale(window_, &x, &y);
@@ -242,6 +245,7 @@ void Window::play(const InputEvent& event) {
   }
 }
 
+void Window::wake() noexcept { glfwPostEmptyEvent(); }
 void Window::swap() { glfwSwapBuffers(window_); }
 void Window::set_swap_interval(int frames) { glfwSwapInterval(frames); }
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }

@@ -30,11 +30,15 @@ class Window {
   /// The events since the last call. Waits for one at most this long; 0: not at all.
   std::vector<InputEvent> poll(double wait_s);
 
+  /// Ends the wait of poll() at once, or the next one. Threads  any.
+  static void wake() noexcept;
+
   /// Plays an event through the same callbacks that the window system calls.
   void play(const InputEvent& event);
 
   /// Whether what the window showed was lost, as behind another window. True once.
   bool take_exposed() noexcept { return std::exchange(is_exposed_, false); }
+  bool is_exposed() const noexcept { return is_exposed_; }
   void swap();
   void set_swap_interval(int frames);
   void set_title(const std::string& title);

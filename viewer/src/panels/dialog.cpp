@@ -6,6 +6,8 @@
 
 #include <imgui.h>
 
+#include "panels/layout.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -19,12 +21,13 @@ void shade_rest(bool is_beside) {
 void put_next(const DialogLayout& layout) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   if (layout.is_beside) {
-    const float top = ImGui::GetFrameHeight() + 6.0F;
-    ImGui::SetNextWindowPos({screen.x - 6.0F, top}, ImGuiCond_Always, {1.0F, 0.0F});
+    const float top = ImGui::GetFrameHeight() + 6.0F * unit();
+    ImGui::SetNextWindowPos({screen.x - 6.0F * unit(), top}, ImGuiCond_Always, {1.0F, 0.0F});
   } else {
     ImGui::SetNextWindowPos({0.5F * screen.x, 0.47F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
   }
-  ImGui::SetNextWindowSize({std::min(layout.width, screen.x), std::min(layout.height, screen.y)});
+  ImGui::SetNextWindowSize(
+      {std::min(layout.width * unit(), screen.x), std::min(layout.height * unit(), screen.y)});
 }
 
 }  // namespace

@@ -7,8 +7,8 @@ namespace argil::viewer {
 /// not over the clay that it is about.
 struct DialogLayout {
   bool is_beside = false;
-  float width = 380.0F;
-  float height = 0.0F;  ///< 0: as its content needs
+  float width = 380.0F;  ///< in units (layout.h), as the height
+  float height = 0.0F;   ///< 0: as its content needs
 };
 
 /// A window that has to be answered first: nothing behind it reacts. True while it is open: then

@@ -14,6 +14,7 @@
 #include "commands/command.h"
 #include "panels/dialog.h"
 #include "panels/gui.h"
+#include "panels/layout.h"
 
 namespace argil::viewer {
 namespace {
@@ -142,7 +143,7 @@ void FileList::draw(UiState& ui, DocumentThread& document) {
   if (ui.file_wish == FileWish::none) system_.close();
   if (ui.file_wish != FileWish::none && wish_ != ui.file_wish) start(ui);
   const bool is_asked = open_dialog(ui) == Dialog::file;
-  const float height = std::min(460.0F, 0.9F * ImGui::GetIO().DisplaySize.y);
+  const float height = std::min(460.0F, 0.9F * ImGui::GetIO().DisplaySize.y / unit());
   const DialogLayout layout{false, 560.0F, system_.is_open() ? 0.0F : height};
   bool is_open = true;
   const bool is_drawn = begin_dialog(title_of(wish_), is_asked, &is_open, layout);
@@ -160,7 +161,7 @@ void FileList::draw(UiState& ui, DocumentThread& document) {
 /// While the desktop asks.
 void FileList::draw_waiting(UiState& ui, DocumentThread& document, bool& is_open) {
   ImGui::TextUnformatted("Choose in the dialog of the desktop.");
-  if (button("No file")) is_open = false;
+  if (button("Cancel")) is_open = false;
   const auto answer = system_.answer();
   if (answer && answer->empty()) is_open = false;
   if (answer && !answer->empty()) take(*answer, ui, document);
@@ -183,10 +184,12 @@ void FileList::draw_list(UiState& ui, DocumentThread& document, bool& is_open) {
   }
   ImGui::EndChild();
   ImGui::SetNextItemWidth(-1.0F);
+  // Whoever is asked for a name types one at once; what is offered is chosen whole.
+  if (writes && ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   if (text_field("##name", name_)) finish(ui, document);
   if (ui.file_wish != FileWish::none && button(verb_of(wish_))) finish(ui, document);
   ImGui::SameLine();
-  if (button("No file")) is_open = false;
+  if (button("Cancel")) is_open = false;
   std::error_code error;
   if (writes && fs::exists(chosen(), error) && !name_.empty()) {
     ImGui::SameLine();

@@ -20,6 +20,8 @@ class FileList {
 
   /// Draws the dialog, and does what the file was asked for.
   void draw(UiState& ui, DocumentThread& document);
+  /// Whether the desktop asks: its answer is looked for by draw().
+  bool is_waiting() const noexcept { return system_.is_open(); }
 
  private:
   void start(UiState& ui);

@@ -2,7 +2,6 @@
 #include "panels/gui.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cctype>
 #include <filesystem>
@@ -13,7 +12,6 @@
 #include <imgui_stdlib.h>
 
 #include "input/window.h"
-#include "panels/dear_imgui.h"
 
 namespace argil::viewer {
 namespace {
@@ -49,6 +47,7 @@ void load_letters(double scale) {
 
 /// Dark, so that the clay is the lightest thing on the screen; the accents are clay's own colour.
 void set_style(double scale) {
+  ImGui::GetStyle() = ImGuiStyle();  // sizes are scaled once
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 4.0F;
@@ -74,33 +73,6 @@ void set_style(double scale) {
   style.Colors[ImGuiCol_PlotHistogram] = {0.75F, 0.45F, 0.28F, 1.0F};
   style.Colors[ImGuiCol_PlotLines] = {0.93F, 0.60F, 0.40F, 1.0F};
   style.ScaleAllSizes(static_cast<float>(scale));
-}
-
-/// Dear ImGui's key numbers are GLFW's, as events have them (input_event.h).
-void map_keys() {
-  ImGuiIO& io = ImGui::GetIO();
-  for (const auto& [key, number] : {std::pair{ImGuiKey_Tab, kKeyTab},
-                                    {ImGuiKey_LeftArrow, kKeyLeft},
-                                    {ImGuiKey_RightArrow, kKeyRight},
-                                    {ImGuiKey_UpArrow, kKeyUp},
-                                    {ImGuiKey_DownArrow, kKeyDown},
-                                    {ImGuiKey_Home, kKeyHome},
-                                    {ImGuiKey_End, kKeyEnd},
-                                    {ImGuiKey_Delete, kKeyDelete},
-                                    {ImGuiKey_Backspace, kKeyBackspace},
-                                    {ImGuiKey_Enter, kKeyEnter},
-                                    {ImGuiKey_Escape, kKeyEscape},
-                                    {kImGuiKeypadEnter, kKeyPadEnter}}) {
-    io.KeyMap[key] = number;
-  }
-  for (const auto& [key, letter] : {std::pair<int, int>{ImGuiKey_A, 'A'},
-                                    {ImGuiKey_C, 'C'},
-                                    {ImGuiKey_V, 'V'},
-                                    {ImGuiKey_X, 'X'},
-                                    {ImGuiKey_Y, 'Y'},
-                                    {ImGuiKey_Z, 'Z'}}) {
-    io.KeyMap[key] = letter;
-  }
 }
 
 /// A menu or what a field offers, and no dialog of ours, which is a popup too.
@@ -132,7 +104,8 @@ Gui::Gui(Window& window) : window_(window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // panels begin where the program puts them
+  io.IniFilename = nullptr;               // panels begin where the program puts them
+  io.ConfigInputTextCursorBlink = false;  // or a window that waits for a name would never rest
   io.BackendPlatformName = "argil";
   io.ClipboardUserData = this;
   io.GetClipboardTextFn = [](void* me) {
@@ -143,10 +116,20 @@ Gui::Gui(Window& window) : window_(window) {
   io.SetClipboardTextFn = [](void* me, const char* text) {
     static_cast<Gui*>(me)->window_.set_clipboard(text);
   };
-  map_keys();
-  load_letters(window.scale());
-  set_style(window.scale());
+  name_keys(io);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  set_scale(window.scale());
+}
+
+void Gui::set_scale(double scale) {
+  assert(scale > 0.0);
+  if (scale == scale_) return;
+  scale_ = scale;
+  ImGui::GetIO().Fonts->Clear();
+  load_letters(scale);
+  set_style(scale);
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 Gui::~Gui() {
@@ -155,48 +138,24 @@ Gui::~Gui() {
   positions() = {};
 }
 
-void Gui::press(MouseButton button, bool is_down) {
-  const auto at = static_cast<std::size_t>(button);
-  assert(at < pressed_now_.size());
-  // Dear ImGui sees only the state at begin_frame: a release of the same frame waits for the next.
-  if (is_down) {
-    pressed_now_[at] = true;
-  } else if (pressed_now_[at]) {
-    released_later_[at] = true;
-    return;
-  }
-  ImGui::GetIO().MouseDown[at] = is_down;
-}
-
 /// True where the panels keep the event for themselves. What WantCapture... says is of the frame
 /// before: Dear ImGui learns where its windows are when they are drawn.
 bool Gui::feed(const InputEvent& event) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.KeyCtrl = event.modifiers.ctrl;
-  io.KeyShift = event.modifiers.shift;
-  io.KeyAlt = event.modifiers.alt;
-  const auto at = [&] { io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)}; };
+  const ImGuiIO& io = ImGui::GetIO();
   switch (event.kind) {
     case InputEvent::Kind::move:
-      at();
-      return io.WantCaptureMouse;
     case InputEvent::Kind::press:
     case InputEvent::Kind::release:
-      at();
-      press(event.button, event.kind == InputEvent::Kind::press);
+      queue_.add(event);
       return io.WantCaptureMouse;
     case InputEvent::Kind::scroll:
-      if (io.WantCaptureMouse) io.MouseWheel += static_cast<float>(event.steps);
+      if (io.WantCaptureMouse) queue_.add(event);
       return io.WantCaptureMouse;
     case InputEvent::Kind::key_down:
     case InputEvent::Kind::key_up:
-      if (event.key >= 0 && event.key < 512) {
-        io.KeysDown[event.key] = event.kind == InputEvent::Kind::key_down;
-      }
-      return io.WantTextInput || is_list_open();
     case InputEvent::Kind::text:
+      queue_.add(event);
       // An open menu or list has the keyboard: a letter must not choose a tool behind it.
-      io.AddInputCharacter(event.character);
       return io.WantTextInput || is_list_open();
     default:
       return false;
@@ -216,13 +175,7 @@ void Gui::begin_frame(double elapsed_s) {
   io.DisplaySize = {static_cast<float>(window_.width()), static_cast<float>(window_.height())};
   // Dear ImGui takes no step of zero; a long pause is no reason to repeat keys for all of it.
   io.DeltaTime = static_cast<float>(std::clamp(elapsed_s, 1e-4, 0.5));
-  for (std::size_t n = 0; n < 3; ++n) {
-    if (released_later_[n] && !pressed_now_[n]) {
-      io.MouseDown[n] = false;
-      released_later_[n] = false;
-    }
-    pressed_now_[n] = false;
-  }
+  queue_.apply(io);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   positions().now.clear();
@@ -241,6 +194,8 @@ bool Gui::end_frame() {
 void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 bool Gui::takes_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+
+bool Gui::is_held() const { return ImGui::IsAnyMouseDown() && ImGui::GetIO().WantCaptureMouse; }
 
 std::optional<Vec3> Gui::position_of(const std::string& label) const {
   const auto found = positions().shown.find(label);
@@ -336,7 +291,8 @@ bool pick_one(const char* label, int& index, const std::vector<std::string>& nam
 }
 
 bool text_field(const char* label, std::string& text) {
-  const bool entered = ImGui::InputText(label, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText(
+      label, &text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   note_widget(label);
   return entered;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "input/input_event.h"
+#include "panels/input_queue.h"
 
 namespace argil::viewer {
 
@@ -34,6 +34,9 @@ class Gui {
   /// lists of a dialog are left to the dialog.
   bool leaves_list(const InputEvent& event);
 
+  /// How large panels and letters are from the next frame on: times kLetterPixels.
+  void set_scale(double scale);
+
   void begin_frame(double elapsed_s);
   /// True when the panels look different from those at the last end_frame.
   bool end_frame();
@@ -42,20 +45,21 @@ class Gui {
 
   /// Whether the pointer is over a panel, as of the last begin_frame.
   bool takes_mouse() const;
+  /// Whether a button of the mouse is held on a panel.
+  bool is_held() const;
+  /// Whether the next frame has something to show that came before the last one.
+  bool has_waiting_input() const noexcept { return queue_.has_waiting(); }
 
   /// The middle of a widget of the last frame by its label.
   std::optional<Vec3> position_of(const std::string& label) const;
   std::vector<std::string> labels() const;
 
  private:
-  void press(MouseButton button, bool is_down);
-
   Window& window_;
   std::string clipboard_;
+  double scale_ = 0.0;
   std::string look_;  ///< all that was to be drawn at the last end_frame
-  // A click within one frame is shown to the panels over two, or they would not see it.
-  std::array<bool, 3> pressed_now_{};
-  std::array<bool, 3> released_later_{};
+  InputQueue queue_;
 };
 
 /// Remembers where the widget just made is, under its label. The functions below do so themselves.

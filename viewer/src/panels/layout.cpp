@@ -4,19 +4,33 @@
 #include <algorithm>
 #include <cassert>
 
+#include "panels/gui.h"
+
 namespace argil::viewer {
+
+float unit() { return ImGui::GetFontSize() / kLetterPixels; }
+
+double scale_of_panels(double content_scale, int percent, int width, int height) {
+  // The menu needs so much, and the brush above what is shown.
+  constexpr double kRoomWidth = 640.0;
+  constexpr double kRoomHeight = 400.0;
+  constexpr double kLeastScale = 0.75;  // smaller letters cannot be read
+  const double room = std::min(width / kRoomWidth, height / kRoomHeight);
+  const double wanted = content_scale * percent / 100.0;
+  return std::max(kLeastScale, std::min(wanted, room));
+}
 
 void keep_on_screen(float width) {
   assert(width > 0.0F);
   // Between the menu and the status line, and one height of air.
   const float most = ImGui::GetIO().DisplaySize.y - 3.0F * ImGui::GetFrameHeight();
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, most});
+  ImGui::SetNextWindowSizeConstraints({width * unit(), 0.0F}, {width * unit(), most});
 }
 
 void put_beside(float left, float width) {
   assert(left >= 0.0F && width > 0.0F);
-  const float most = std::max(0.0F, ImGui::GetIO().DisplaySize.x - width);
-  ImGui::SetNextWindowPos({std::min(left, most), ImGui::GetFrameHeight() + 12.0F},
+  const float most = std::max(0.0F, ImGui::GetIO().DisplaySize.x - width * unit());
+  ImGui::SetNextWindowPos({std::min(left * unit(), most), ImGui::GetFrameHeight() + 12.0F * unit()},
                           ImGuiCond_FirstUseEver);
 }
 

@@ -5,8 +5,19 @@
 
 namespace argil::viewer {
 
+/// Pixels of the screen in one of those that sizes here are given in: of a screen whose letters are
+/// kLetterPixels high. Every size of a panel is a multiple of it, or comes from the letters.
+float unit();
+
+/// How many times larger letters are than kLetterPixels: as the screen asks for (`content_scale`),
+/// times what the user chose, but no larger than that a window of this size has room for all
+/// panels.
+double scale_of_panels(double content_scale, int percent, int width, int height);
+
 /// The colour of what stops the force, or tells that it is stopped.
 inline const ImVec4 kStopColor{0.75F, 0.10F, 0.08F, 1.0F};
+
+// All below in units.
 
 /// Where panels begin that open beside the tools.
 inline constexpr float kBesideTools = 162.0F;

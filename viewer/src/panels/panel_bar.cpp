@@ -82,7 +82,7 @@ void draw_files(UiState& ui, DocumentThread& document) {
 /// At the right end of the status line: that the force is stopped, or where help is.
 void draw_hint(const UiState& ui, float screen_width) {
   const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
-  const float left = screen_width - ImGui::CalcTextSize(text).x - 20.0F;
+  const float left = screen_width - ImGui::CalcTextSize(text).x - 20.0F * unit();
   ImGui::SameLine();
   // That the force is stopped is shown even over other text.
   if (ImGui::GetCursorPosX() > left && !ui.is_force_stopped) return;
@@ -93,9 +93,10 @@ void draw_hint(const UiState& ui, float screen_width) {
   }
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::CalcTextSize(text);
-  ImGui::GetWindowDrawList()->AddRectFilled({low.x - 8.0F, low.y - 1.0F},
-                                            {low.x + size.x + 8.0F, low.y + size.y + 1.0F},
-                                            ImGui::GetColorU32(kStopColor), 3.0F);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {low.x - 8.0F * unit(), low.y - unit()},
+      {low.x + size.x + 8.0F * unit(), low.y + size.y + unit()}, ImGui::GetColorU32(kStopColor),
+      3.0F * unit());
   ImGui::TextUnformatted(text);
 }
 
@@ -103,7 +104,8 @@ void draw_hint(const UiState& ui, float screen_width) {
 void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
   if (ui.haptics.device == DeviceChoice::mouse) return;
   const float width = ImGui::CalcTextSize("STOP").x + 2.0F * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F));
+  ImGui::SetCursorPosX(
+      std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F * unit()));
   ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
   if (button("STOP")) chosen = Command::emergency_stop;
   ImGui::PopStyleColor();
@@ -150,7 +152,7 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   const float high = ImGui::GetFrameHeight();
   ImGui::SetNextWindowPos({0.0F, screen.y - high - 2.0F});
   ImGui::SetNextWindowSize({screen.x, high + 2.0F});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0F, 3.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0F * unit(), 3.0F * unit()});
   ImGui::Begin("Status", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
@@ -165,6 +167,11 @@ void draw_status(const UiState& ui, const FrameState& frame) {
                   clay.is_changed ? " *" : "", grouped(frame.counts.triangles).c_str(),
                   clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
     ImGui::TextUnformatted(text);
+    if (frame.latency_ms) {
+      ImGui::SameLine(0.0F, 0.0F);
+      ImGui::Text("   |   input to screen %.0f ms, p99 %.0f", frame.latency_ms->first,
+                  frame.latency_ms->second);
+    }
   } else {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
   }
@@ -173,11 +180,27 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   ImGui::PopStyleVar();
 }
 
+/// Beside the pointer, as a number on a drawing.
+void draw_thickness(const UiState& ui) {
+  if (!ui.chord) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f mm", length(ui.chord->to_mm - ui.chord->from_mm));
+  const ImVec2 at{static_cast<float>(ui.pointer.x) + 16.0F * unit(),
+                  static_cast<float>(ui.pointer.y) + 12.0F * unit()};
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const float margin = 4.0F * unit();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled({at.x - margin, at.y - margin},
+                     {at.x + size.x + margin, at.y + size.y + margin},
+                     ImGui::GetColorU32(ImGuiCol_PopupBg), margin);
+  list.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text);
+}
+
 void draw_task(const UiState& ui, DocumentThread& document) {
   if (!ui.task.is_running) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.12F * screen.y}, ImGuiCond_Always, {0.5F, 0.0F});
-  ImGui::SetNextWindowSize({360.0F, 0.0F});
+  ImGui::SetNextWindowSize({360.0F * unit(), 0.0F});
   ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted(ui.task.name.c_str());
   if (ui.task.has_progress) {
@@ -195,7 +218,7 @@ namespace {
 
 void draw_key(const char* what, const char* how) {
   ImGui::TextDisabled("%s", how);
-  ImGui::SameLine(104.0F);
+  ImGui::SameLine(104.0F * unit());
   ImGui::TextUnformatted(what);
 }
 
@@ -240,12 +263,13 @@ void draw_help(UiState& ui) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.5F * screen.y}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize(
-      {std::min(860.0F, 0.94F * screen.x), std::min(620.0F, 0.86F * screen.y)});
+      {std::min(860.0F * unit(), 0.94F * screen.x), std::min(620.0F * unit(), 0.86F * screen.y)});
   ImGui::Begin("Keys and mouse", &ui.panels.has_help,
                ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
   // Side by side as far as the longest line of each fits.
-  const int columns = std::clamp(static_cast<int>(ImGui::GetWindowWidth() / 280.0F), 1, 3);
+  const int columns =
+      std::clamp(static_cast<int>(ImGui::GetWindowWidth() / (280.0F * unit())), 1, 3);
   if (ImGui::BeginTable("keys", columns)) {
     ImGui::TableNextColumn();
     draw_mouse_keys();

@@ -30,7 +30,7 @@ void draw_new_dialog(UiState& ui, DocumentThread& document) {
   const bool is_asked = open_dialog(ui) == Dialog::new_clay;
   if (!begin_dialog("New clay", is_asked, &ui.panels.is_new_open)) return;
   io::StartShape& shape = ui.waiting_start;
-  ImGui::PushItemWidth(180.0F);
+  ImGui::PushItemWidth(180.0F * unit());
   int kind = shape.kind == io::StartShape::Kind::block ? 1 : 0;
   if (pick_one("Form", kind, {"Ball", "Block"})) {
     shape.kind = kind == 1 ? io::StartShape::Kind::block : io::StartShape::Kind::ball;
@@ -94,7 +94,7 @@ void draw_operations(UiState& ui, DocumentThread& document) {
   const bool is_asked = open_dialog(ui) == Dialog::operations;
   const DialogLayout layout{true, 290.0F, 0.0F};  // beside the clay, which shows the plane
   if (!begin_dialog("Whole clay", is_asked, &ui.panels.is_operations_open, layout)) return;
-  ImGui::PushItemWidth(90.0F);
+  ImGui::PushItemWidth(90.0F * unit());
   if (const auto wanted = draw_operation_choice(ui.operation)) {
     document.send(DoStep{*wanted});
     if (std::holds_alternative<Hollow>(*wanted)) ui.operation.drains.clear();
@@ -110,7 +110,7 @@ void draw_export(UiState& ui) {
   const bool is_asked = open_dialog(ui) == Dialog::export_mesh;
   if (!begin_dialog("Export for printing", is_asked, &ui.panels.is_export_open)) return;
   say_wrapped("A mesh in mm, checked after it was read back. 3MF keeps the unit, so prefer it.");
-  ImGui::PushItemWidth(150.0F);
+  ImGui::PushItemWidth(150.0F * unit());
   number("Largest error, mm", ui.export_options.max_error_mm, 0.0, 10.0, "%.3f");
   // number() edits doubles, which hold every count of triangles exactly.
   double triangles = static_cast<double>(ui.export_options.triangles);
@@ -197,8 +197,8 @@ void draw_drop_question(UiState& ui, DocumentThread& document) {
   say_wrapped(left.asked.file.filename().string() +
               " and every step kept for it are removed, and nothing brings them back.");
   // Under the pointer that has just clicked, so that a double click does no harm.
-  constexpr double kAsWideAsBothBefore = 216.0;
-  if (button("Keep it", kAsWideAsBothBefore)) ui.asks_to_drop = false;
+  const double as_wide_as_both_before = 216.0 * static_cast<double>(unit());
+  if (button("Keep it", as_wide_as_both_before)) ui.asks_to_drop = false;
   ImGui::SameLine();
   if (button("Throw it away for good")) {
     ui.asks_to_drop = false;

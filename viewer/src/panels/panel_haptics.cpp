@@ -25,9 +25,12 @@ void tell(const char* text) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+/// Of a button as wide as the panel.
+double whole_width() { return 270.0 * static_cast<double>(unit()); }
+
 /// The last seconds of a value, the newest as a number over it.
-void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, const char* unit,
-               double (*value_of)(const haptics::RigPoint&)) {
+void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points,
+               const char* unit_name, double (*value_of)(const haptics::RigPoint&)) {
   assert(value_of != nullptr);
   std::vector<float> values;
   values.reserve(points.size());
@@ -35,9 +38,9 @@ void draw_plot(const char* label, const std::deque<haptics::RigPoint>& points, c
   const float most = values.empty() ? 0.0F : *std::max_element(values.begin(), values.end());
   char text[48];
   std::snprintf(text, sizeof text, "%.4g %s",
-                values.empty() ? 0.0 : static_cast<double>(values.back()), unit);
+                values.empty() ? 0.0 : static_cast<double>(values.back()), unit_name);
   ImGui::PlotLines(label, values.data(), static_cast<int>(values.size()), 0, text, 0.0F,
-                   std::max(1.05F * most, 1e-3F), {190.0F, 44.0F});
+                   std::max(1.05F * most, 1e-3F), {190.0F * unit(), 44.0F * unit()});
 }
 
 /// Who holds the simulated Falcon.
@@ -57,7 +60,7 @@ void draw_falcon(haptics::HapticRig& rig) {
   ImGui::TextColored(has_fault ? ImVec4{1.0F, 0.45F, 0.40F, 1.0F} : ImVec4{0.7F, 0.9F, 1.0F, 1.0F},
                      "%s", falcon_words(*status).c_str());
   ImGui::PopTextWrapPos();
-  if (has_fault && button("Home it again", 270.0)) rig.home_falcon();
+  if (has_fault && button("Home it again", whole_width())) rig.home_falcon();
 }
 
 /// The numbers of a scene of the Falcon report. A slider is felt where it is let go.
@@ -223,12 +226,13 @@ void draw_feel(HapticChoice& choice, const HapticControl& control) {
 /// Stopping and going on are two buttons, so that a second click on the one is never the other.
 void draw_stop(UiState& ui, DocumentThread& document) {
   ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
-  if (button("STOP the force (Space)", 270.0)) perform(Command::emergency_stop, ui, document);
+  if (button("STOP the force (Space)", whole_width()))
+    perform(Command::emergency_stop, ui, document);
   ImGui::PopStyleColor();
   if (!ui.is_force_stopped) return;
   ImGui::TextColored({1.0F, 0.45F, 0.40F, 1.0F}, "The force is stopped.");
   ImGui::PushStyleColor(ImGuiCol_Button, {0.25F, 0.55F, 0.25F, 1.0F});
-  if (button("Give the force again", 270.0)) perform(Command::give_force, ui, document);
+  if (button("Give the force again", whole_width())) perform(Command::give_force, ui, document);
   ImGui::PopStyleColor();
 }
 
@@ -292,10 +296,10 @@ void draw_state(UiState& ui, HapticControl& control) {
 void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document) {
   if (!ui.panels.has_haptics) return;
   put_beside(kDevicePanelLeft, 300.0F);
-  ImGui::SetNextWindowSize({300.0F, 0.0F});
+  ImGui::SetNextWindowSize({300.0F * unit(), 0.0F});
   keep_on_screen(300.0F);
   ImGui::Begin("Device", &ui.panels.has_haptics, ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PushItemWidth(150.0F);
+  ImGui::PushItemWidth(150.0F * unit());
   draw_device(ui);
   if (ui.haptics.scene == "clay") {
     const bool has_guidance = ImGui::CollapsingHeader("Guidance along a path");

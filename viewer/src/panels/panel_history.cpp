@@ -14,11 +14,12 @@ namespace argil::viewer {
 void draw_history(UiState& ui, DocumentThread& document) {
   if (!ui.panels.has_history) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  constexpr float kWidth = 220.0F;
+  const float width = 220.0F * unit();
   // In the lower half, since the panel for printing is wide.
-  const float left = std::min(kHistoryPanelLeft, std::max(0.0F, screen.x - kWidth));
+  const float left = std::min(kHistoryPanelLeft * unit(), std::max(0.0F, screen.x - width));
   ImGui::SetNextWindowPos({left, 0.5F * screen.y}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({kWidth, std::min(360.0F, 0.45F * screen.y)}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({width, std::min(360.0F * unit(), 0.45F * screen.y)},
+                           ImGuiCond_FirstUseEver);
   ImGui::Begin("History", &ui.panels.has_history, ImGuiWindowFlags_NoSavedSettings);
   if (!ui.clay.steps) {
     ImGui::TextUnformatted("no clay");

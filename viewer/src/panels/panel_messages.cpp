@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include <imgui.h>
+#include <imgui_internal.h>  // the order of windows
 
 #include "panels/gui.h"
 #include "panels/layout.h"
@@ -38,6 +38,10 @@ bool draw_toast(const Message& message, std::size_t index, float& bottom) {
                    ImGuiWindowFlags_NoFocusOnAppearing |
                    // Clicks go through a message that cannot be dismissed.
                    (is_error ? 0 : ImGuiWindowFlags_NoInputs));
+  // A panel that is worked in is before all that were not; only a dialog is before a message.
+  if (ImGui::GetTopMostPopupModal() == nullptr) {
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
+  }
   ImGui::PushTextWrapPos(0.55F * screen.x);
   ImGui::PushStyleColor(ImGuiCol_Text, color_of(message.notice.kind));
   ImGui::TextUnformatted(message.notice.text.c_str());
@@ -62,8 +66,8 @@ void draw_toasts(MessageLog& log) {
 void draw_messages(UiState& ui, MessageLog& log) {
   if (!ui.panels.has_messages) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({kBesideTools, 0.55F * screen.y}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({std::min(560.0F, 0.5F * screen.x), 0.3F * screen.y},
+  ImGui::SetNextWindowPos({kBesideTools * unit(), 0.55F * screen.y}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize({std::min(560.0F * unit(), 0.5F * screen.x), 0.3F * screen.y},
                            ImGuiCond_FirstUseEver);
   ImGui::Begin("Messages", &ui.panels.has_messages, ImGuiWindowFlags_NoSavedSettings);
   if (log.messages().empty()) ImGui::TextDisabled("none yet");

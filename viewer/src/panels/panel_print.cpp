@@ -93,10 +93,10 @@ void draw_verdict(UiState& ui) {
 void draw_print(UiState& ui, DocumentThread& document) {
   if (!ui.panels.has_print) return;
   put_beside(kPrintPanelLeft, 400.0F);
-  ImGui::SetNextWindowSize({400.0F, 0.0F});
+  ImGui::SetNextWindowSize({400.0F * unit(), 0.0F});
   keep_on_screen(400.0F);
   ImGui::Begin("Print", &ui.panels.has_print, ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PushItemWidth(140.0F);
+  ImGui::PushItemWidth(140.0F * unit());
   draw_printer(ui);
   if (button("Check")) document.send(CheckPrint{ui.printer});
   const bool has_hollow = ui.clay.has_clay && ImGui::CollapsingHeader("Hollow with drains");

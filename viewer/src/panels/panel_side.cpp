@@ -21,18 +21,18 @@ namespace {
 constexpr float kTileWidth = 62.0F;
 constexpr float kTileHeight = 60.0F;
 constexpr int kMostToolColumns = 8;
-constexpr float kSideWidth = 290.0F;
+constexpr float kSideWidth = 290.0F;  // units
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_AlwaysAutoResize;
 
 /// Where panels at the top begin, in pixels.
-float below_menu() { return ImGui::GetFrameHeight() + 6.0F; }
+float below_menu() { return ImGui::GetFrameHeight() + 6.0F * unit(); }
 
 /// A line of the clay's figures: name and value.
 void say(const char* name, const std::string& value) {
   ImGui::TextDisabled("%s", name);
-  ImGui::SameLine(110.0F);
+  ImGui::SameLine(110.0F * unit());
   ImGui::TextUnformatted(value.c_str());
 }
 
@@ -43,8 +43,9 @@ std::string with_unit(double value, const char* unit) {
 }
 
 /// A tool as its picture, with its name below and its key in the corner.
-void draw_tool(const ToolInfo& info, Brush& brush, float unit) {
-  const ImVec2 size{kTileWidth * unit, kTileHeight * unit};
+void draw_tool(const ToolInfo& info, Brush& brush) {
+  const float u = unit();
+  const ImVec2 size{kTileWidth * u, kTileHeight * u};
   if (tile(info.title, static_cast<double>(size.x), static_cast<double>(size.y))) {
     choose(brush, info);
   }
@@ -52,17 +53,17 @@ void draw_tool(const ToolInfo& info, Brush& brush, float unit) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (is_chosen(brush, info) || ImGui::IsItemHovered()) {
     const ImGuiCol color = is_chosen(brush, info) ? ImGuiCol_Header : ImGuiCol_ButtonHovered;
-    list.AddRectFilled(low, ImGui::GetItemRectMax(), ImGui::GetColorU32(color), 3.0F * unit);
+    list.AddRectFilled(low, ImGui::GetItemRectMax(), ImGui::GetColorU32(color), 3.0F * u);
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.help);
-  draw_tool_picture(info.picture, list, {low.x + 4.0F * unit, low.y + 3.0F * unit}, 54.0F * unit);
+  draw_tool_picture(info.picture, list, {low.x + 4.0F * u, low.y + 3.0F * u}, 54.0F * u);
   const float letters = ImGui::GetFontSize();
   const float small = 0.74F * letters;
   const char key[2] = {info.key == kNoKey ? ' ' : info.key, '\0'};
-  list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * unit, low.y + 3.0F * unit},
+  list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * u, low.y + 3.0F * u},
                ImGui::GetColorU32(ImGuiCol_TextDisabled), key);
   const float width = ImGui::CalcTextSize(info.title).x;
-  list.AddText({low.x + 0.5F * (size.x - width), low.y + size.y - letters - 2.0F * unit},
+  list.AddText({low.x + 0.5F * (size.x - width), low.y + size.y - letters - 2.0F * u},
                ImGui::GetColorU32(ImGuiCol_Text), info.title);
 }
 
@@ -185,26 +186,39 @@ void draw_mask_edits(UiState& ui, DocumentThread& document) {
   }
 }
 
+/// How large panels and letters are, on top of what the screen asks for.
+void draw_size_choice(Settings& settings) {
+  std::vector<std::string> names;
+  int at = 0;
+  for (const int percent : kPanelPercents) {
+    if (percent <= settings.panel_percent) at = static_cast<int>(names.size());
+    names.push_back(std::to_string(percent) + " %");
+  }
+  if (pick_one("Size of panels", at, names)) {
+    settings.panel_percent = kPanelPercents[static_cast<std::size_t>(at)];
+  }
+}
+
 }  // namespace
 
 void draw_tools(UiState& ui) {
   if (!ui.panels.has_tools) return;
-  const float unit = ImGui::GetFontSize() / kLetterPixels;
-  ImGui::SetNextWindowPos({6.0F, below_menu()});
+  const float u = unit();
+  ImGui::SetNextWindowPos({6.0F * u, below_menu()});
   ImGui::Begin("Tools", nullptr, kFixed);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2.0F * unit, 2.0F * unit});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {2.0F * u, 2.0F * u});
   // As many beside each other as the height of the window asks for, two at least.
   const auto count = static_cast<float>(tool_infos().size());
   const float room = ImGui::GetIO().DisplaySize.y - 4.0F * ImGui::GetFrameHeight();
   int columns = 2;
-  while (std::ceil(count / static_cast<float>(columns)) * (kTileHeight + 2.0F) * unit > room &&
+  while (std::ceil(count / static_cast<float>(columns)) * (kTileHeight + 2.0F) * u > room &&
          columns < kMostToolColumns) {
     ++columns;
   }
   int column = 0;
   for (const ToolInfo& info : tool_infos()) {
     if (column > 0) ImGui::SameLine();
-    draw_tool(info, ui.brush, unit);
+    draw_tool(info, ui.brush);
     column = (column + 1) % columns;
   }
   ImGui::PopStyleVar();
@@ -214,14 +228,15 @@ void draw_tools(UiState& ui) {
 void draw_brush(UiState& ui, DocumentThread& document) {
   if (!ui.panels.has_brush) return;
   Brush& brush = ui.brush;
-  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - kSideWidth - 6.0F, below_menu()});
-  ImGui::SetNextWindowSize({kSideWidth, 0.0F});
+  ImGui::SetNextWindowPos(
+      {ImGui::GetIO().DisplaySize.x - (kSideWidth + 6.0F) * unit(), below_menu()});
+  ImGui::SetNextWindowSize({kSideWidth * unit(), 0.0F});
   // What does not fit above the other panel scrolls.
   const float end = ui.panels.has_view ? ui.panels.view_top : ImGui::GetIO().DisplaySize.y;
-  const float room = std::max(end - below_menu() - 4.0F, 4.0F * ImGui::GetFrameHeight());
-  ImGui::SetNextWindowSizeConstraints({kSideWidth, 0.0F}, {kSideWidth, room});
+  const float room = std::max(end - below_menu() - 4.0F * unit(), 4.0F * ImGui::GetFrameHeight());
+  ImGui::SetNextWindowSizeConstraints({kSideWidth * unit(), 0.0F}, {kSideWidth * unit(), room});
   ImGui::Begin("Brush", nullptr, kFixed);
-  ImGui::PushItemWidth(150.0F);
+  ImGui::PushItemWidth(150.0F * unit());
   if (brush.is_screen_size) {
     slide("Size", brush.radius_pixels, 2.0, 500.0, "%.0f px", true);
   } else {
@@ -254,14 +269,14 @@ void draw_brush(UiState& ui, DocumentThread& document) {
 
 void draw_view(UiState& ui) {
   if (!ui.panels.has_view) return;
-  const float bottom = ImGui::GetIO().DisplaySize.y - ImGui::GetFrameHeight() - 8.0F;
-  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - kSideWidth - 6.0F, bottom},
+  const float bottom = ImGui::GetIO().DisplaySize.y - ImGui::GetFrameHeight() - 8.0F * unit();
+  ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x - (kSideWidth + 6.0F) * unit(), bottom},
                           ImGuiCond_Always, {0.0F, 1.0F});
-  ImGui::SetNextWindowSize({kSideWidth, 0.0F});
+  ImGui::SetNextWindowSize({kSideWidth * unit(), 0.0F});
   ImGui::Begin("View", nullptr, kFixed);
   // The brush's panel, above it, ends there in the next frame.
   ui.panels.view_top = ImGui::GetWindowPos().y;
-  ImGui::PushItemWidth(150.0F);
+  ImGui::PushItemWidth(150.0F * unit());
   int shading = static_cast<int>(ui.show.shading);
   if (pick_one("Shading", shading, {"Clay", "Plain", "Curvature", "Detail"})) {
     ui.show.shading = static_cast<Shading>(shading);
@@ -279,6 +294,7 @@ void draw_view(UiState& ui) {
     pick_one("Across", ui.show.slice_axis, {"x", "y", "z"});
     slide("Place", ui.show.slice_position, -1.0, 1.0, "%.2f");
   }
+  draw_size_choice(ui.settings);
   check("Number row as numpad", ui.settings.has_number_views);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("1, 3, 5, 7 look as the numpad's keys do");
   ImGui::PopItemWidth();
@@ -287,8 +303,8 @@ void draw_view(UiState& ui) {
 
 void draw_info(UiState& ui) {
   if (!ui.panels.has_info) return;
-  ImGui::SetNextWindowSize({kSideWidth + 60.0F, 0.0F}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowPos({kBesideTools, 0.5F * ImGui::GetIO().DisplaySize.y},
+  ImGui::SetNextWindowSize({(kSideWidth + 60.0F) * unit(), 0.0F}, ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowPos({kBesideTools * unit(), 0.5F * ImGui::GetIO().DisplaySize.y},
                           ImGuiCond_FirstUseEver);
   ImGui::Begin("Clay", &ui.panels.has_info, ImGuiWindowFlags_NoSavedSettings);
   const ClayState& clay = ui.clay;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
 #include "document/message_log.h"
@@ -14,6 +17,9 @@ class HapticControl;
 struct FrameState {
   double frame_ms = 0.0;
   RendererCounts counts;
+  /// From an input to the end of the frame that shows its dab, of the last strokes: median and p99.
+  /// Nothing where it is not asked for, or nothing was drawn yet.
+  std::optional<std::pair<double, double>> latency_ms;
 };
 
 // Each draws from the state and writes choices into it. What they do goes through commands and
@@ -27,6 +33,7 @@ void draw_history(UiState& ui, DocumentThread& document);
 void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document);
 void draw_print(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
+void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
 void draw_toasts(MessageLog& log);
 void draw_messages(UiState& ui, MessageLog& log);

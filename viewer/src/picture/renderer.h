@@ -47,12 +47,13 @@ struct ArrowMark {
   friend bool operator==(const ArrowMark&, const ArrowMark&) = default;
 };
 
-/// A see-through square: a plane of symmetry.
+/// A square with a frame: a plane of symmetry, or of a cut that is to be made.
 struct PlaneMark {
   Vec3 point_mm;
   Vec3 normal;
   double half_side_mm = 10.0;
   Vec3 color{0.3, 0.6, 1.0};
+  bool is_filled = true;  ///< tints what is behind it; else it is only a frame, and faint
   friend bool operator==(const PlaneMark&, const PlaneMark&) = default;
 };
 
@@ -70,7 +71,8 @@ struct LineMark {
   friend bool operator==(const LineMark&, const LineMark&) = default;
 };
 
-/// Signed distances over a rectangle, drawn as bands of density: a cut through the clay.
+/// Signed distances over a rectangle, drawn as the material's cross-section: a cut through the
+/// clay.
 struct SlicePicture {
   Vec3 corner_mm;  ///< of the first value
   Vec3 along_mm;   ///< from there to the end of the first row
@@ -78,7 +80,6 @@ struct SlicePicture {
   int columns = 0;
   int rows = 0;
   std::vector<float> distance_mm;  ///< row by row
-  double skin_mm = 1.0;            ///< density is 1 - distance / skin, at least 0
   friend bool operator==(const SlicePicture&, const SlicePicture&) = default;
 };
 
@@ -90,6 +91,7 @@ struct Picture {
   Shading shading = Shading::matcap;
   bool has_wires = false;     ///< the triangles' edges over the shading
   bool has_occlusion = true;  ///< ambient occlusion (Shading::plain)
+  bool is_moving = false;     ///< the camera turns: the clay may be drawn more coarsely
   std::vector<RingMark> rings;
   std::vector<ArrowMark> arrows;
   std::vector<PlaneMark> planes;
@@ -108,14 +110,17 @@ struct DepthMap {
 };
 
 struct RendererCounts {
-  std::int64_t pictures = 0;  ///< drawn so far; not those that were only shown again
+  std::int64_t pictures = 0;        ///< drawn so far; not those that were only shown again
+  std::int64_t whole_pictures = 0;  ///< of them those for which all of the clay was drawn
   std::int64_t blocks = 0;
-  std::int64_t triangles = 0;        ///< of all blocks
-  std::int64_t drawn_triangles = 0;  ///< in the last picture: blocks outside of it are left out
-  std::int64_t uploaded_bytes = 0;   ///< so far
-  std::int64_t memory_bytes = 0;     ///< on the graphics card, for blocks
-  std::int64_t objects = 0;          ///< OpenGL objects that live
-  std::int64_t errors = 0;           ///< that OpenGL reported (debug contexts only)
+  std::int64_t triangles = 0;  ///< of all blocks
+  /// When the clay was drawn last: blocks that cannot be seen are left out, and where only some
+  /// changed, those that lie elsewhere in the picture.
+  std::int64_t drawn_triangles = 0;
+  std::int64_t uploaded_bytes = 0;  ///< so far
+  std::int64_t memory_bytes = 0;    ///< on the graphics card, for blocks
+  std::int64_t objects = 0;         ///< OpenGL objects that live
+  std::int64_t errors = 0;          ///< that OpenGL reported (debug contexts only)
 };
 
 /// Draws blocks of clay and what belongs to them. The one place that knows a graphics interface.

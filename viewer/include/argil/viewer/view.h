@@ -51,6 +51,10 @@ struct ViewOptions {
   /// user's own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
   std::filesystem::path home;
 
+  /// The status line says how long after an input its dab was on the screen (ViewReport has it
+  /// always).
+  bool shows_latency = false;
+
   /// Asks for a debug context, counts what it reports (ViewReport::gl_errors), and makes any error
   /// that of `view` at the end; slower.
   bool checks_gl = false;

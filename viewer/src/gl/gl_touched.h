@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "argil/core/triangle_mesh.h"
+
+#include "gl/gl_clay.h"
+#include "gl/gl_targets.h"
+
+namespace argil::viewer {
+
+/// What changed of the clay since it was drawn: the parts of a picture that have to be drawn anew.
+class Touched {
+ public:
+  /// Beyond so many all of the picture is drawn: a stroke's dab touches some hundred blocks.
+  static constexpr std::size_t kMostBoxes = 8192;
+  /// A picture has at most so many parts; a stroke with its mirror images has as many as images.
+  static constexpr std::size_t kMostAreas = 8;
+
+  void add(const Box3& box_mm);
+  void add_all() noexcept { is_all_ = true; }
+  void clear() noexcept;
+  bool empty() const noexcept { return !is_all_ && boxes_mm_.empty(); }
+
+  /// These parts in an eye's picture, which may overlap: together less than half of it, or the one
+  /// that is all of it.
+  std::vector<PixelRect> areas_in(const EyeView& eye) const;
+
+ private:
+  std::vector<Box3> boxes_mm_;
+  bool is_all_ = false;
+};
+
+}  // namespace argil::viewer
