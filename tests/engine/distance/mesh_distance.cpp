@@ -18,7 +18,7 @@ TriangleMesh needles(int count) {
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   TriangleMesh mesh;
   for (int n = 0; n < count; ++n) {
-    const Vec3 along = normalized({number(random), number(random), number(random)});
+    const Vec3 along = normalized(Vec3{number(random), number(random), number(random)});
     const Vec3 side = normalized(cross(along, {0.3, 0.5, number(random)}));
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const Vec3& p : {50.0 * along, -50.0 * along, 50.0 * along + 0.5 * side}) {
