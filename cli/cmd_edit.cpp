@@ -191,6 +191,7 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   if (!opened) return opened.error();
   Sculpture& sculpture = opened.value().sculpture;
   const std::string active = sculpture.look(sculpture.active()).name;
+  const std::uint64_t first_hash = sculpture.hash();
   if (auto selected = select_piece(options.project, options.piece, sculpture); !selected) {
     return selected.error();
   }
@@ -198,7 +199,6 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
   Clay& clay = sculpture.clay();
   Outcome outcome;
   outcome.json["operations"] = Json::array();
-  const std::uint64_t first_hash = sculpture.hash();
   for (const NamedOperation& named : options.operations) {
     auto done = run_one(named, clay, progress);
     if (!done) return done.error();

@@ -50,7 +50,7 @@ TEST_F(CliPieces, InfoListsThem) {
 TEST_F(CliPieces, CommandsOfOneClayAskWhichIsMeant) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"export", path("p.vdb"), "-o", path("x.vdb")},
-        {"force", path("p.vdb"), "--at", "0,0,5"},
+        {"force", path("p.vdb"), "--tool", "ball:2", "--at", "0,0,5"},
         {"edit", path("p.vdb"), "-o", path("q.vdb"), "--offset", "0.5"}}) {
     const Ended run = argil(words);
     EXPECT_EQ(run.status, 3) << words[0];

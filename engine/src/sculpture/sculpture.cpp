@@ -152,14 +152,12 @@ std::uint64_t Sculpture::hash() const {
 // ---- what was done -----------------------------------------------------------------------------
 
 void Sculpture::State::follow() {
-  Piece& piece = active_piece();
-  const std::int64_t steps = steps_of(*piece.clay);
-  assert(steps >= piece.known_steps);
-  if (steps == piece.known_steps) return;
-  while (piece.known_steps < steps) {
+  const std::int64_t steps = steps_of(*active_piece().clay);
+  assert(steps >= active_piece().known_steps);
+  while (active_piece().known_steps < steps) {
     make_room();
-    push({{ClayStep{piece.id}}});
-    ++piece.known_steps;
+    push({{ClayStep{active}}});
+    ++active_piece().known_steps;
   }
 }
 

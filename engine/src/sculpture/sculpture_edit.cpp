@@ -235,6 +235,7 @@ Result<void> Editor::operator()(const RemovePiece& remove) {
 Result<void> Editor::operator()(const ChangePiece& change) {
   const auto index = index_of(change.name);
   if (!index) return index.error();
+  state_.make_room();
   Piece& piece = state_.pieces[index.value()];
   PieceLook look = piece.look;
   if (change.new_name) look.name = *change.new_name;
@@ -251,7 +252,6 @@ Result<void> Editor::operator()(const ChangePiece& change) {
     return bad_input("the piece " + quoted_piece(change.name) + " is locked; unlock it first");
   }
   if (change.placement) look.placement = settled(look.placement);
-  state_.make_room();
   SculptureStep step{{OtherLook{piece.id, std::move(look)}}};
   std::swap(piece.look, std::get<OtherLook>(step.parts.front()).look);
   state_.push(std::move(step));

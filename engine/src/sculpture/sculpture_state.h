@@ -71,7 +71,7 @@ struct Sculpture::State {
   /// Takes note of the steps that the active clay made by itself.
   void follow();
   /// Room for one piece and one step more. What takes memory is done here, before anything changes:
-  /// the next three cannot fail then.
+  /// the next three cannot fail then. References to pieces end here.
   void make_room();
   /// A new step; what could be repeated no longer can.
   void push(SculptureStep step) noexcept;

@@ -413,7 +413,7 @@ TEST(ProjectFile, ReadsItsOwnFormatAndSaysWhichOthersAre) {
   };
   EXPECT_EQ(with_format(1), "");
   EXPECT_THAT(with_format(2), HasSubstr("has no grid 'mask', which its format holds"));
-  EXPECT_THAT(with_format(99), HasSubstr("has format 99 and this program reads up to 2; open it "
+  EXPECT_THAT(with_format(99), HasSubstr("has format 99 and this program reads up to 3; open it "
                                          "with a newer argil"));
   EXPECT_THAT(with_format(0), HasSubstr("has format 0, which no argil ever wrote"));
 }
