@@ -220,20 +220,21 @@ TEST_F(CliParts, ExportMakesOneFileOfSeveralClays) {
 }
 
 TEST_F(CliParts, ImportKeepsThemAsPiecesOfOneProject) {
-  const Ended imported = run({"import", write_pot(pot(0.5)), "-o", path("set.vdb"), "--keep-parts",
-                              "--voxel-mm", "0.25"});
+  const Ended imported = run(
+      {"import", write_pot(pot(0.5)), "-o", path("set.vdb"), "--keep-parts", "--voxel-mm", "0.25"});
   ASSERT_EQ(imported.status, 0) << imported.err;
   EXPECT_THAT(names_in(imported.json()["pieces"]), ElementsAre("Body", "Lid", "Pin/1"));
   const json info = run({"info", path("set.vdb")}).json();
   EXPECT_EQ(info["hash"], imported.json()["hash"]);
   EXPECT_THAT(names_in(info["pieces"]), ElementsAre("Body", "Lid", "Pin/1"));
   // Back to a 3MF, with a place and a color that a script gave.
-  fill(path("s.strokes.jsonl"), "{\"argil_strokes\":1}\n"
-                                R"({"piece":"change","name":"Lid","position_mm":[0,0,3],)"
-                                R"("orientation":[1,0,0,0],"color":"#c81e00"})"
-                                "\n"
-                                R"({"piece":"change","name":"Body","visible":false})"
-                                "\n");
+  fill(path("s.strokes.jsonl"),
+       "{\"argil_strokes\":1}\n"
+       R"({"piece":"change","name":"Lid","position_mm":[0,0,3],)"
+       R"("orientation":[1,0,0,0],"color":"#c81e00"})"
+       "\n"
+       R"({"piece":"change","name":"Body","visible":false})"
+       "\n");
   ASSERT_EQ(run_argil({"sculpt", path("set.vdb"), "--strokes", path("s.strokes.jsonl"), "-o",
                        path("moved.vdb")})
                 .status,
@@ -249,8 +250,8 @@ TEST_F(CliParts, ImportKeepsThemAsPiecesOfOneProject) {
   EXPECT_NEAR(io::placed_bounds(set.objects[0].mesh, lid.to_mm).min.z,
               bounds(set.objects[0].mesh).min.z + 3.0, 1e-6);
   // One by name, into any format; all of them only where they have names.
-  EXPECT_EQ(run_argil({"export", path("moved.vdb"), "--piece", "Lid", "-o", path("lid.stl")}).status,
-            0);
+  EXPECT_EQ(
+      run_argil({"export", path("moved.vdb"), "--piece", "Lid", "-o", path("lid.stl")}).status, 0);
   const Ended stl = run_argil({"export", path("moved.vdb"), "-o", path("set.stl")});
   EXPECT_EQ(stl.status, 3);
   EXPECT_THAT(stl.err, HasSubstr("--piece"));
