@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,11 +20,19 @@
 namespace argil::arena {
 namespace {
 
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of(" \n");
-  if (end == std::string::npos) return "";
-  const std::size_t begin = text.find_last_of('\n', end);
-  return text.substr(begin == std::string::npos ? 0 : begin + 1, end - begin);
+/// The last line that says why, without the folder that the files of a run lie in.
+std::string last_line(const std::string& text, const std::string& folder) {
+  std::istringstream lines(text);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    // What a program noticed beside its work is no reason.
+    if (line.find_first_not_of(' ') != std::string::npos && !line.starts_with("argil: note:")) {
+      last = line;
+    }
+  }
+  for (std::size_t at; (at = last.find(folder)) != std::string::npos;)
+    last.erase(at, folder.size());
+  return last;
 }
 
 Attempt attempt_of(const ChildEnd& end, const std::filesystem::path& result) {
@@ -33,7 +42,7 @@ Attempt attempt_of(const ChildEnd& end, const std::filesystem::path& result) {
   attempt.crashed = end.signal != 0 && !end.is_late;
   attempt.wall_s = end.wall_s;
   attempt.cpu_s = end.cpu_s;
-  if (end.status != 0) attempt.said = last_line(end.err);
+  if (end.status != 0) attempt.said = last_line(end.err, result.parent_path().string() + "/");
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(result, ignored)) return attempt;
   if (auto mesh = io::read_mesh(result)) attempt.mesh = std::move(mesh.value());

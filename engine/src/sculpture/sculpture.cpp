@@ -264,27 +264,19 @@ bool Sculpture::State::turn(SculptureStep& step, bool is_undo) {
   return true;
 }
 
-bool Sculpture::undo() {
-  if (state_->is_stroke_open()) return false;
-  state_->follow();
-  state_->make_room();
-  if (state_->undo_steps.empty()) return false;
-  if (!state_->turn(state_->undo_steps.back(), true)) return false;
-  state_->redo_steps.push_back(std::move(state_->undo_steps.back()));
-  state_->undo_steps.pop_back();
+bool Sculpture::State::turn_last(bool is_undo) {
+  if (is_stroke_open()) return false;
+  follow();
+  make_room();
+  std::vector<SculptureStep>& from = is_undo ? undo_steps : redo_steps;
+  if (from.empty() || !turn(from.back(), is_undo)) return false;
+  (is_undo ? redo_steps : undo_steps).push_back(std::move(from.back()));
+  from.pop_back();
   return true;
 }
 
-bool Sculpture::redo() {
-  if (state_->is_stroke_open()) return false;
-  state_->follow();
-  state_->make_room();
-  if (state_->redo_steps.empty()) return false;
-  if (!state_->turn(state_->redo_steps.back(), false)) return false;
-  state_->undo_steps.push_back(std::move(state_->redo_steps.back()));
-  state_->redo_steps.pop_back();
-  return true;
-}
+bool Sculpture::undo() { return state_->turn_last(true); }
+bool Sculpture::redo() { return state_->turn_last(false); }
 
 int Sculpture::undo_depth() {
   state_->follow();

@@ -85,6 +85,8 @@ struct Sculpture::State {
 
   /// Does a step the other way round; false, and nothing done, where a clay has forgotten it.
   bool turn(SculptureStep& step, bool is_undo);
+  /// The same with the step that comes next, which goes to the other side then.
+  bool turn_last(bool is_undo);
 };
 
 /// A placement as pieces have it: a quaternion of unit length, no negative zeros. Once more changes

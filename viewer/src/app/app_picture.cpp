@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the window shows beside the clay: rings, planes, slice, drains, force and path.
+#include <algorithm>
+#include <cmath>
+
+#include "app/app.h"
+#include "commands/command.h"
+#include "picture/stereo.h"
+
+namespace argil::viewer {
+namespace {
+
+const Vec3 kRingColor{1.0, 0.62, 0.35};
+const Vec3 kDrainColor{0.25, 0.6, 1.0};
+
+}  // namespace
+
+Picture App::picture() const {
+  Picture picture;
+  const ShowState& show = ui_.show;
+  const Box3& content = ui_.clay.bounds_mm;
+  const std::vector<WindowPart> parts = parts_of(ui_.camera, show.is_stereo);
+  picture.lens = parts.front().camera.lens(content);
+  if (parts.size() > 1) picture.right_lens = parts.back().camera.lens(content);
+  picture.shading = show.shading;
+  picture.has_wires = show.has_wires;
+  picture.has_occlusion = show.has_occlusion;
+  picture.is_moving = is_moving();
+  add_rings(picture);
+  add_force(picture);
+  add_path(picture);
+  for (const Drain& drain : ui_.operation.drains) {
+    const Vec3 inward = normalized(drain.direction);
+    picture.rings.push_back({drain.point_mm, -1.0 * inward, drain.radius_mm, kDrainColor, true});
+    picture.arrows.push_back(
+        {drain.point_mm - 6.0 * drain.radius_mm * inward, drain.point_mm, kDrainColor});
+  }
+  if (show.has_planes) add_planes(picture);
+  add_cut(picture);
+  if (show.has_slice) {
+    picture.slice = slice_;
+    if (ui_.chord) picture.lines.push_back({{ui_.chord->from_mm, ui_.chord->to_mm}, kRingColor});
+  }
+  if (show.has_pins && ui_.report) {
+    for (const mesh::MeshProblem& problem : ui_.report->verdict.problems) {
+      picture.pins.push_back({problem.at_mm, {1.0, 0.1, 0.1}});
+    }
+  }
+  return picture;
+}
+
+void App::add_rings(Picture& picture) const {
+  std::optional<SurfaceHit> hit = gestures_.tool_hit();
+  double radius = gestures_.tool_radius_mm();
+  if (!hit) {
+    const auto answer = document_.answer();
+    if (!answer || !answer->pick || !(ui_.is_pointer_over_clay_view || ui_.brush_drag)) return;
+    hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+    radius = radius_on(ui_.brush, ui_.camera.pixel_mm_at(hit->point_mm));
+  }
+  for (const SurfaceHit& image : images_of(*hit, ui_.brush)) {
+    picture.rings.push_back({image.point_mm, image.normal, radius, kRingColor, false});
+  }
+  // A smaller ring shows the strength.
+  picture.rings.push_back(
+      {hit->point_mm, hit->normal, radius * ui_.brush.strength, 0.5 * kRingColor, false});
+}
+
+/// The planes of symmetry, through the origin, as large as the clay.
+void App::add_planes(Picture& picture) const {
+  const Box3& box = ui_.clay.bounds_mm;
+  const double half = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
+  const Mirror& mirror = ui_.brush.mirror;
+  const auto add = [&](bool is_on, const Vec3& normal, const Vec3& color) {
+    if (!is_on) return;
+    const Vec3 middle = box.center() - dot(box.center(), normal) * normal;
+    // Filled it would veil half of the piece.
+    picture.planes.push_back({middle, normal, half, color, false});
+  };
+  add(mirror.x, {1.0, 0.0, 0.0}, {0.9, 0.3, 0.3});
+  add(mirror.y, {0.0, 1.0, 0.0}, {0.3, 0.8, 0.3});
+  add(mirror.z, {0.0, 0.0, 1.0}, {0.3, 0.5, 0.95});
+}
+
+/// The plane along which the dialog would cut.
+void App::add_cut(Picture& picture) const {
+  if (open_dialog(ui_) != Dialog::operations) return;
+  const Box3& box = ui_.clay.bounds_mm;
+  PlaneMark plane;
+  plane.normal = {};
+  const auto axis = static_cast<std::size_t>(ui_.operation.cut_axis);
+  plane.normal[axis] = 1.0;
+  plane.point_mm = box.center();
+  plane.point_mm[axis] = ui_.operation.cut_at_mm;
+  plane.half_side_mm = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
+  plane.color = kRingColor;
+  picture.planes.push_back(plane);
+}
+
+/// Asks for the slice that is to be shown: a square across one axis, a little larger than the clay.
+void App::cut_slice() {
+  if (!ui_.show.has_slice || !ui_.clay.has_clay) {
+    document_.cut({});
+    slice_.reset();
+    return;
+  }
+  if (gestures_.is_stroke_open()) return;
+  const Box3& box = ui_.clay.bounds_mm;
+  const auto axis = static_cast<std::size_t>(ui_.show.slice_axis);
+  const std::size_t across = axis == 0 ? 1 : 0;
+  const std::size_t down = axis == 2 ? 1 : 2;
+  const double half = 0.55 * std::max(box.size()[across], box.size()[down]);
+  SlicePlane plane;
+  plane.corner_mm = box.center();
+  plane.corner_mm[axis] += 0.5 * ui_.show.slice_position * box.size()[axis];
+  plane.corner_mm[across] -= half;
+  plane.corner_mm[down] += half;
+  plane.along_mm[across] = 2.0 * half;
+  plane.down_mm[down] = -2.0 * half;
+  plane.columns = plane.rows = 384;
+  document_.cut(plane);
+}
+
+/// How thick the material of the slice is under the pointer.
+std::optional<Chord> App::chord() const {
+  if (!ui_.show.has_slice || !slice_ || !ui_.is_pointer_over_clay_view) return std::nullopt;
+  return shortest_chord(*slice_,
+                        part_at(ui_.camera, ui_.show.is_stereo, ui_.pointer).ray_at(ui_.pointer));
+}
+
+/// The force on the tool, and where it is felt.
+void App::add_force(Picture& picture) const {
+  const auto seen = felt();
+  if (!seen) return;
+  const double force = length(seen->force_n);
+  RingMark tool{seen->tool_mm, ui_.camera.lens({}).back, seen->radius_mm, {0.4, 0.8, 1.0}, false};
+  picture.rings.push_back(tool);
+  if (force < 0.02) return;  // N: noise, whose direction says nothing
+  const Vec3 direction = seen->force_n / force;
+  // An arrow of 3 N is 8 % of the distance to the target long.
+  const double mm_per_n = 0.08 * ui_.camera.distance_mm() / 3.0;
+  picture.arrows.push_back({seen->tool_mm, seen->tool_mm + force * mm_per_n * direction});
+  tool.center_mm -= seen->radius_mm * direction;
+  tool.normal = direction;
+  tool.radius_mm *= 0.7;
+  tool.color = {1.0, 0.8, 0.1};
+  tool.is_filled = true;
+  picture.rings.push_back(tool);
+}
+
+/// The path that guides the hand, or the one that is being drawn.
+void App::add_path(Picture& picture) const {
+  const std::vector<Vec3>& drawn = ui_.drawn_path_mm;
+  const std::vector<Vec3>& path = drawn.empty() ? ui_.haptics.guidance.path_mm : drawn;
+  if (path.size() > 1) picture.lines.push_back({path});
+  if (path.size() == 1) picture.pins.push_back({path.front(), LineMark().color});
+}
+
+}  // namespace argil::viewer
