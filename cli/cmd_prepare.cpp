@@ -112,6 +112,7 @@ Json prepare_json(const io::PrintPreparation& made) {
   for (const auto& each : made.orientations) json["orientations"].push_back(orientation_json(each));
   json["orientation"] = orientation_json(made.chosen);
   json["cut_mm"] = made.cut_mm;
+  if (made.wall_mm > 0.0) json["wall_mm"] = made.wall_mm;
   json["holes"] = Json::array();
   for (const io::PrintHole& hole : made.holes) {
     json["holes"].push_back({{"mouth_mm", to_json(hole.mouth_mm)},
@@ -183,6 +184,7 @@ std::string prepare_text(const io::PrintPreparation& made) {
   }
   text += "chosen, " + orientation_text(made.chosen);
   if (made.cut_mm > 0.0) text += "cut off below " + rounded(made.cut_mm) + " mm for a flat base\n";
+  if (made.wall_mm > 0.0) text += "hollow, with a wall of " + rounded(made.wall_mm) + " mm\n";
   for (const io::PrintHole& hole : made.holes) {
     text += std::string(hole.is_for_air ? "hole for air" : "drain") + " at " +
             place_text(hole.mouth_mm) + " mm\n";
@@ -225,11 +227,13 @@ Result<void> check_files(const PrepareCommand& command) {
   if (!command.printer.empty()) {
     if (auto input = check_input(command.printer); !input) return input;
   }
-  if (!command.pictures.empty() && !std::filesystem::is_directory(command.pictures)) {
-    return Error{ErrorKind::disk,
-                 "'" + command.pictures.string() + "' is no folder for pictures; make it first"};
-  }
-  return check_output(command.output);
+  if (auto output = check_output(command.output); !output) return output;
+  if (command.pictures.empty()) return {};
+  std::error_code error;
+  std::filesystem::create_directories(command.pictures, error);
+  if (std::filesystem::is_directory(command.pictures)) return {};
+  return Error{ErrorKind::disk, "cannot make a folder for pictures at '" +
+                                    command.pictures.string() + "'; choose another"};
 }
 
 Result<Outcome> run_prepare(const PrepareCommand& command, const Progress& progress) {

@@ -48,8 +48,8 @@ class CliPrepare : public testing::Test {
 };
 
 TEST_F(CliPrepare, TellsOrientationsAndWhatItMade) {
-  const Ended run = prepare(
-      "ball.obj", {"--voxel-mm", "0.4", "--wall-mm", "2", "--pictures", folder.path().string()});
+  const Ended run =
+      prepare("ball.obj", {"--voxel-mm", "0.4", "--wall-mm", "2", "--pictures", path("made/here")});
   ASSERT_EQ(run.status, 0) << run.err;
   const json made = run.json();
   EXPECT_TRUE(made["printable"].get<bool>());
@@ -59,13 +59,15 @@ TEST_F(CliPrepare, TellsOrientationsAndWhatItMade) {
     EXPECT_TRUE(made["orientations"][0].contains(key)) << key;
   }
   EXPECT_GT(made["cut_mm"].get<double>(), 0.0);
+  EXPECT_EQ(made["wall_mm"].get<double>(), 2.0);
   ASSERT_EQ(made["holes"].size(), 2U);
   EXPECT_FALSE(made["holes"][0]["air"].get<bool>());
   ASSERT_EQ(made["pieces"].size(), 1U);
   EXPECT_EQ(made["pieces"][0]["file"], path("out.stl"));
   EXPECT_EQ(made["pieces"][0]["pockets"].size(), 0U);
   EXPECT_THAT(made["pictures"],
-              ElementsAre(path("orientations.png"), path("pieces.png"), path("drains.png")));
+              ElementsAre(path("made/here/orientations.png"), path("made/here/pieces.png"),
+                          path("made/here/drains.png")));
   for (const auto& picture : made["pictures"]) {
     EXPECT_GT(std::filesystem::file_size(picture.get<std::string>()), 10'000U);
   }
@@ -126,7 +128,7 @@ TEST_F(CliPrepare, NamesWhatItCannotUse) {
   EXPECT_THAT(refusal({"--plug-tolerance-mm", "3"}, 2), HasSubstr("from 0 to 2"));
   EXPECT_THAT(refusal({"--up", "0,0,0"}, 3), HasSubstr("is zero"));
   EXPECT_THAT(refusal({"--keep-orientation", "--wall-mm", "0.05"}, 3), HasSubstr("hollow"));
-  EXPECT_THAT(refusal({"--pictures", path("nowhere")}, 5), HasSubstr("nowhere"));
+  EXPECT_THAT(refusal({"--pictures", path("ball.obj")}, 5), HasSubstr("ball.obj"));
   EXPECT_FALSE(std::filesystem::exists(path("out.stl")));
 }
 

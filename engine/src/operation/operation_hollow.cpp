@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hollow: the difference with the clay moved inward by the wall, and round holes into the cavity.
+// Hollow: the difference with a cavity, and round holes into it. The cavity is the clay moved
+// inward by the wall and a voxel more, then outward by that voxel: a plain offset runs out into
+// films thinner than a voxel, full of holes, where what is inside tapers to a wall.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "clay/clay_access.h"
+#include "edit/prune.h"
 #include "operation/combine.h"
 #include "operation/prepared_operation.h"
 #include "operation/rebuild.h"
@@ -126,19 +129,42 @@ Result<Rod> rod_of(const DrainLine& line, const Drain& drain, std::size_t index,
   return Rod{line.at(begin), line.axis(), end - begin, drain.radius_mm};
 }
 
+/// Subtracts from all distances.
+void grow_levels(LevelStack& stack, float mm) {
+  for (int level = 0; level < stack.count(); ++level) {
+    const float band = stack.band_mm(level);
+    for (const Coord& origin : stack.sorted_origins(level)) {
+      LeafValues values;
+      std::copy_n(values_of(*stack.leaf(level, origin)), kLeafNodes, values.begin());
+      for (float& value : values) value = std::clamp(value - mm, -band, band);
+      stack.rewrite_leaf(level, origin, values.data());
+    }
+    drop_bandless(stack, level);
+  }
+}
+
+Result<std::unique_ptr<LevelStack>> cavity_of(const Clay& clay, double wall_mm,
+                                              const Progress& progress) {
+  const double voxel = clay.options().voxel_mm;
+  auto levels =
+      rebuild({clay, {}, -(wall_mm + voxel)}, {clay.options(), clay.level_count()}, progress);
+  if (!levels) return levels;
+  if (!has_inside(*levels.value())) {
+    return bad_operation("wall_mm is " + digits(wall_mm) +
+                         ", and no part of the clay is two voxels thicker than two such walls; "
+                         "choose a thinner wall");
+  }
+  grow_levels(*levels.value(), static_cast<float>(voxel));
+  return levels;
+}
+
 }  // namespace
 
 Result<PreparedOperation> prepare(const Clay& clay, const Hollow& hollow,
                                   const Progress& progress) {
   if (auto ok = check_hollow(clay, hollow); !ok) return ok.error();
-  auto levels =
-      rebuild({clay, {}, -hollow.wall_mm}, {clay.options(), clay.level_count()}, progress);
+  auto levels = cavity_of(clay, hollow.wall_mm, progress);
   if (!levels) return levels.error();
-  if (!has_inside(*levels.value())) {
-    return bad_operation("wall_mm is " + digits(hollow.wall_mm) +
-                         ", and no part of the clay is thicker than two such walls; choose a "
-                         "thinner wall");
-  }
   PreparedOperation prepared;
   prepared.others.push_back(clay_of_levels(std::move(levels).value(), clay.options()));
   const Clay& cavity = prepared.others.back();

@@ -16,6 +16,7 @@
 #include "edit/build_levels.h"
 #include "edit/level_edit.h"
 #include "edit/prune.h"
+#include "edit/redistance.h"
 #include "field/nesting.h"
 #include "field/parallel.h"
 #include "field/prolongation.h"
@@ -186,6 +187,10 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
   }
   if (!balance()) return interrupted;
   restrict_all(*stack_);
+  const bool is_a_distance = source_.offset_mm == 0.0;
+  if (!is_a_distance && !redistance_shortened(*stack_, source_.offset_mm < 0.0, progress_)) {
+    return interrupted;
+  }
   for (int level = 0; level < top; ++level) {
     prune_level(*stack_, level, tolerance_of(target_.options));
   }

@@ -408,7 +408,8 @@ ARGIL_ROWS void distances_by(const LayerJob& job, const PatchTold& told, EightFl
 }
 
 /// The same where the patch lies on the surface, below the foot. `way` leads to the point there;
-/// where the patch holds the nearest point it is what the patch tells.
+/// where the patch holds the nearest point it is what the patch tells. A patch that looks the other
+/// way, as on the far side of a thin part, holds none: seen from behind, its rim is the nearest.
 ARGIL_ROWS void surface_distances_by(const LayerJob& job, const Patches& patches,
                                      const EightFloats& squares, const PatchTold& told,
                                      EightFloats& way, EightFloats& out) {
@@ -416,8 +417,9 @@ ARGIL_ROWS void surface_distances_by(const LayerJob& job, const Patches& patches
   const EightFloats ball = told.ball + job.layer;
   roots(above * above + told.over * told.over, out);
   roots(squares + job.layer * (2.0F * patches.height + job.layer), way);
-  out = told.is_held ? ball : out;
-  way = told.is_held ? ball : way;
+  const EightInts is_held = told.is_held & (ball >= 0.0F);
+  out = is_held ? ball : out;
+  way = is_held ? ball : way;
 }
 
 /// The places of eight nodes of the block, the first `first`, in two rows.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drains: hollow once without any to see where cavities are, then again with one at the lowest
-// place of each, and more where the floor of a cavity has a second low.
+// place of each, and more where the floor of a cavity has a second low. Where a neck is hardly
+// wider than two walls, two cavities may leave a film between them: a slightly thicker wall leaves
+// a plug.
 #include "convert/print_drains.h"
 
 #include <algorithm>
@@ -8,11 +10,13 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "argil/engine/clay_copy.h"
 #include "argil/mesh/liquid_pockets.h"
+#include "argil/mesh/wall_thickness.h"
 
 namespace argil::io {
 namespace {
@@ -42,8 +46,11 @@ class Drilling {
            double reach_mm)
       : solid_(solid), frame_(frame), options_(options), reach_(reach_mm) {}
 
-  /// One hole into a pocket: down from its lowest place, or up from its highest for air.
-  PrintHole hole(const mesh::LiquidPocket& pocket, bool is_for_air) const;
+  std::optional<Vec3> within_air(const Clay& hollow, const Vec3& end) const;
+  /// One hole into a pocket of what was hollowed so far: down from its lowest place, or up from its
+  /// highest for air. None where no air is found beside that place.
+  std::optional<PrintHole> hole(const Clay& hollow, const mesh::LiquidPocket& pocket,
+                                bool is_for_air) const;
   Drain drain(const PrintHole& hole) const;
   /// Where the solid was: liquid there stands in what was hollowed, not in a bowl outside.
   bool is_inside(const Vec3& on_bed) const {
@@ -68,13 +75,34 @@ double Drilling::way_through(const Vec3& from, const Vec3& direction) const {
   return reach_;
 }
 
-PrintHole Drilling::hole(const mesh::LiquidPocket& pocket, bool is_for_air) const {
+/// From the end of a pocket into its air, as far as half a drain's radius from its walls, if it is
+/// so wide: there a hole meets it however slanted it comes.
+std::optional<Vec3> Drilling::within_air(const Clay& hollow, const Vec3& end) const {
+  const double step = 0.5 * solid_.options().voxel_mm;
+  const auto most_steps = static_cast<int>(3.0 * options_.drain_radius_mm / step);
+  Vec3 at = frame_.to_clay(end);
+  double air = hollow.distance_at(at);
+  for (int n = 0; n < most_steps && air < 0.5 * options_.drain_radius_mm; ++n) {
+    const Vec3 from = at;
+    for (int way = 0; way < 27; ++way) {
+      const Vec3 next = from + step * Vec3{way / 9 - 1.0, way / 3 % 3 - 1.0, way % 3 - 1.0};
+      const double there = hollow.distance_at(next);
+      if (there <= air) continue;
+      at = next;
+      air = there;
+    }
+    if (at == from) break;
+  }
+  if (air < step) return std::nullopt;
+  return frame_.to_bed(at);
+}
+
+std::optional<PrintHole> Drilling::hole(const Clay& hollow, const mesh::LiquidPocket& pocket,
+                                        bool is_for_air) const {
   const double up = is_for_air ? 1.0 : -1.0;
-  const double deep =
-      std::min(options_.drain_radius_mm, 0.4 * (pocket.highest_mm.z - pocket.lowest_mm.z));
-  // Within the air, so that the hole meets it however slanted it comes.
-  const Vec3 from = is_for_air ? pocket.highest_mm - Vec3{0.0, 0.0, deep}
-                               : pocket.lowest_mm + Vec3{0.0, 0.0, deep};
+  const auto in_air = within_air(hollow, is_for_air ? pocket.highest_mm : pocket.lowest_mm);
+  if (!in_air) return std::nullopt;
+  const Vec3 from = *in_air;
   double least = std::numeric_limits<double>::infinity();
   PrintHole best;
   for (const Vec3& way : ways_out(up)) {
@@ -103,6 +131,62 @@ Result<Clay> hollowed(const Clay& solid, const std::vector<Drain>& drains, doubl
   return hollow;
 }
 
+Result<std::vector<PrintHole>> drained(const Clay& solid, const PrintFrame& frame,
+                                       const PreparationOptions& options, double wall_mm,
+                                       Clay& clay, const Pace& pace) {
+  constexpr int kMostRounds = 4;
+  std::vector<PrintHole> holes;
+  std::vector<Drain> drains;
+  for (int round = 0;; ++round) {
+    const Pace part = pace.part(round / (kMostRounds + 1.0), (round + 1) / (kMostRounds + 1.0));
+    auto hollow = hollowed(solid, drains, wall_mm, answering(part.part(0.0, 0.5)));
+    if (!hollow) return hollow.error();
+    clay = std::move(hollow).value();
+    if (round == kMostRounds) return holes;
+    const TriangleMesh surface = surface_on_bed(clay, frame);
+    const mesh::PocketOptions looked{pocket_pitch_mm(surface, options.drain_radius_mm),
+                                     kLeastPocketMm3};
+    const auto pockets = mesh::liquid_pockets(surface, looked, part.part(0.5, 1.0));
+    const Drilling drilling(solid, frame, options, length(bounds(surface).size()));
+    const std::size_t before = holes.size();
+    const auto drill = [&](const mesh::LiquidPocket& pocket, bool is_for_air) {
+      if (const auto hole = drilling.hole(clay, pocket, is_for_air)) holes.push_back(*hole);
+    };
+    for (const mesh::LiquidPocket& pocket : pockets) {
+      if (!drilling.is_inside(pocket.lowest_mm)) continue;
+      if (pocket.closed && pocket.volume_mm3 < kLeastCavityMm3) continue;
+      drill(pocket, false);
+      if (pocket.closed && options.printer.needs_drains) drill(pocket, true);
+    }
+    if (holes.size() == before) return holes;
+    for (std::size_t h = before; h < holes.size(); ++h) drains.push_back(drilling.drain(holes[h]));
+  }
+}
+
+/// Where cavities come nearer to each other than the printer can print: how much of their surface.
+/// Thin places at the outer surface are the piece's own.
+double film_mm2(const Clay& hollow, const Clay& solid, const PrintFrame& frame,
+                const PreparationOptions& options, const Pace& pace) {
+  const double least = options.printer.min_wall_mm;
+  if (!(least > 0.0)) return 0.0;
+  const TriangleMesh surface = surface_on_bed(hollow, frame);
+  double sum = 0.0;
+  for (const mesh::TriangleThickness& wall : mesh::wall_thickness(surface, least, pace)) {
+    if (wall.thin_mm2 == 0.0) continue;
+    const double depth = -solid.distance_at(frame.to_clay(wall.at_mm));
+    if (depth > 0.5 * options.wall_mm) sum += wall.thin_mm2;
+  }
+  return sum;
+}
+
+/// A clay hollowed and drained.
+struct Hollowed {
+  Clay clay;
+  double wall_mm;
+  std::vector<PrintHole> holes;
+  double film_mm2;
+};
+
 }  // namespace
 
 double pocket_pitch_mm(const TriangleMesh& mesh, double drain_radius_mm) {
@@ -113,34 +197,26 @@ double pocket_pitch_mm(const TriangleMesh& mesh, double drain_radius_mm) {
 
 Result<std::vector<PrintHole>> hollow_with_drains(Clay& clay, const PrintFrame& frame,
                                                   const PreparationOptions& options,
-                                                  const Pace& pace) {
-  constexpr int kMostRounds = 4;
+                                                  double& wall_mm, const Pace& pace) {
+  constexpr int kTries = 4;
+  constexpr double kWorthIt = 0.5;  // of the films that the last wall left
   const Clay solid = copy_of(clay);
-  std::vector<PrintHole> holes;
-  std::vector<Drain> drains;
-  for (int round = 0;; ++round) {
-    const Pace part = pace.part(round / (kMostRounds + 1.0), (round + 1) / (kMostRounds + 1.0));
-    auto hollow = hollowed(solid, drains, options.wall_mm, answering(part.part(0.0, 0.5)));
-    if (!hollow) return hollow.error();
-    clay = std::move(hollow).value();
-    if (round == kMostRounds) return holes;
-    const TriangleMesh surface = surface_on_bed(clay, frame);
-    const mesh::PocketOptions looked{pocket_pitch_mm(surface, options.drain_radius_mm),
-                                     kLeastPocketMm3};
-    const auto pockets = mesh::liquid_pockets(surface, looked, part.part(0.5, 1.0));
-    const Drilling drilling(solid, frame, options, length(bounds(surface).size()));
-    const std::size_t before = holes.size();
-    for (const mesh::LiquidPocket& pocket : pockets) {
-      if (!drilling.is_inside(pocket.lowest_mm)) continue;
-      if (pocket.closed && pocket.volume_mm3 < kLeastCavityMm3) continue;
-      holes.push_back(drilling.hole(pocket, false));
-      if (pocket.closed && options.printer.needs_drains) {
-        holes.push_back(drilling.hole(pocket, true));
-      }
-    }
-    if (holes.size() == before) return holes;
-    for (std::size_t h = before; h < holes.size(); ++h) drains.push_back(drilling.drain(holes[h]));
+  std::optional<Hollowed> best;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    const Pace part = pace.part(1.0 * attempt / kTries, (attempt + 1.0) / kTries);
+    const double wall = options.wall_mm * (1.0 + kMostThicker * attempt / (kTries - 1));
+    Clay hollow = copy_of(solid);
+    auto holes = drained(solid, frame, options, wall, hollow, part.part(0.0, 0.8));
+    if (!holes) return holes.error();
+    const double films = film_mm2(hollow, solid, frame, options, part.part(0.8, 1.0));
+    if (best && films > kWorthIt * best->film_mm2) break;
+    best = Hollowed{std::move(hollow), wall, std::move(holes).value(), films};
+    // As much as a check counts.
+    if (films <= options.printer.min_wall_mm * options.printer.min_wall_mm) break;
   }
+  clay = std::move(best->clay);
+  wall_mm = best->wall_mm;
+  return std::move(best->holes);
 }
 
 }  // namespace argil::io

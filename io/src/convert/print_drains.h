@@ -20,11 +20,15 @@ inline constexpr double kLeastCavityMm3 = 500.0;
 /// Pockets are looked for along lines that far apart: so that a drain has three across.
 double pocket_pitch_mm(const TriangleMesh& mesh, double drain_radius_mm);
 
+/// By how much of itself a wall may become thicker than asked.
+inline constexpr double kMostThicker = 0.1;
+
 /// Hollows a clay that stands on the bed and drills drains until no cavity keeps liquid, in at most
-/// four rounds. Returns the holes; what still keeps liquid then, liquid_pockets tells.
-/// Errors  as Hollow; throws what no_throw catches.
+/// four rounds. Returns the holes; what still keeps liquid then, liquid_pockets tells. `wall_mm`
+/// becomes the wall: as asked, or somewhat more where that leaves less than half as much film
+/// between cavities that the printer cannot print. Errors  as Hollow; throws what no_throw catches.
 Result<std::vector<PrintHole>> hollow_with_drains(Clay& clay, const PrintFrame& frame,
                                                   const PreparationOptions& options,
-                                                  const Pace& pace);
+                                                  double& wall_mm, const Pace& pace);
 
 }  // namespace argil::io

@@ -252,7 +252,7 @@ Result<PrintPreparation> PrintPreparing::run() {
   made_.chosen =
       mesh::orientation_at(made_.surface, made_.chosen.up, as_cut, pace_.part(0.55, 0.6));
   if (options_.wall_mm > 0.0) {
-    auto holes = hollow_with_drains(clay_, frame_, options_, pace_.part(0.6, 0.8));
+    auto holes = hollow_with_drains(clay_, frame_, options_, made_.wall_mm, pace_.part(0.6, 0.8));
     if (!holes) return holes.error();
     made_.holes = std::move(holes).value();
   }

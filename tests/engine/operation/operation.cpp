@@ -240,6 +240,54 @@ TEST(OperationVolume, OffsetBlockIsTheMinkowskiSumWithABall) {
   expect_volume(inner, (size.x - 4.0) * (size.y - 4.0) * (size.z - 4.0));
 }
 
+/// Two faces that meet in an edge along y at x = 0, at 10 degrees to the plane z = 0 each, from
+/// there to x = 20.
+constexpr double kHalfAngle = 10.0 * kPi / 180.0;
+
+Clay wedge() {
+  Clay clay = block({40.0, 6.0, 8.0});
+  for (const double side : {1.0, -1.0}) {
+    const Vec3 outward{-std::sin(kHalfAngle), 0.0, side * std::cos(kHalfAngle)};
+    EXPECT_TRUE(clay.apply(Cut{{}, outward}));
+  }
+  return clay;
+}
+
+TEST(OperationOffset, IsADistanceBeyondTheEndsOfWhatItShrank) {
+  // There the faces of the wedge are hardly nearer than at the edge: what they say is no distance.
+  Clay clay = wedge();
+  apply_and_check(clay, Offset{-1.0});
+  const double edge = 1.0 / std::sin(kHalfAngle);
+  for (double y = -1.0; y <= 1.0; y += 0.31) {
+    for (double far = 0.3; far < 0.9; far += 0.07) {
+      const double found = clay.distance_at({edge - far, y, 0.0});
+      EXPECT_GT(found, 0.7 * far - 0.05) << far << " mm before the edge, at " << y;
+      EXPECT_LT(found, 1.3 * far + 0.2) << far << " mm before the edge, at " << y;
+    }
+  }
+}
+
+TEST(OperationOffset, OutwardAgainRoundsWhatItShrank) {
+  const double back = 0.9;
+  Clay clay = wedge();
+  apply_and_check(clay, Offset{-1.0});
+  apply_and_check(clay, Offset{back});
+  const double edge = 1.0 / std::sin(kHalfAngle);
+  int count = 0;
+  for (const Vec3& p : extract_surface(clay).positions) {
+    if (std::abs(p.y) > 1.0 || p.x > edge + 5.0) continue;
+    // The way to the smaller wedge: to its edge, or to the nearer face.
+    const double across = std::abs(p.z);
+    const double along = (p.x - edge) * std::cos(kHalfAngle) + across * std::sin(kHalfAngle);
+    const double way = along < 0.0
+                           ? std::hypot(p.x - edge, across)
+                           : across * std::cos(kHalfAngle) - (p.x - edge) * std::sin(kHalfAngle);
+    EXPECT_NEAR(way, back, 0.2) << p.x << ", " << p.y << ", " << p.z;
+    ++count;
+  }
+  EXPECT_GT(count, 250);
+}
+
 TEST(OperationVolume, ResampledBallKeepsItsVolume) {
   for (const double voxel :
        effort<std::vector<double>>({0.25, 0.1, 0.155}, {0.0625, 0.25, 0.1, 0.155})) {
@@ -360,6 +408,33 @@ TEST(OperationHollow, BlockHasFlatWallsOfThatThickness) {
   EXPECT_NEAR(walls.thinnest, 2.0, 0.25);
   EXPECT_NEAR(walls.thickest, 2.0, 0.25);
   expect_volume(clay, volume - 16.0 * 12.0 * 8.0, 0.002);
+}
+
+TEST(OperationHollow, EndsWhereTheCavityWouldBeAFilm) {
+  // Between faces at 10 degrees the cavity tapers to nothing; it ends two voxels thick.
+  Clay clay = wedge();
+  apply_and_check(clay, Hollow{1.0, {}});
+  double first = kInfinity;  // along x
+  double ends = 0.0;
+  for (double x = 1.0; x < 15.0; x += 0.01) {
+    if (clay.distance_at({x, 0.0, 0.0}) > 0.0) {
+      first = std::min(first, x);
+      ends = x;
+    }
+  }
+  const double room = 0.25 / std::sin(kHalfAngle);
+  const double edge = 1.0 / std::sin(kHalfAngle);
+  EXPECT_GT(first, edge + room - 0.25 - 0.3);
+  EXPECT_LT(first, edge + room + 0.5);
+  EXPECT_GT(ends, 14.9);
+  const TriangleMesh mesh = extract_surface(clay);
+  const RayScene scene = RayScene::build(mesh).value();
+  // From the cavity's middle plane up and down, the cavity is never narrower than nearly that.
+  for (double x = first + 0.25; x < 14.0; x += 0.05) {
+    const auto up = scene.closest({x, 0.0, 0.0}, {0.0, 0.0, 1.0});
+    ASSERT_TRUE(up.has_value()) << x;
+    EXPECT_GT(up->distance, 0.75 * 0.25) << x;
+  }
 }
 
 TEST(OperationHollow, LeavesTheOuterSurfaceWhereItWas) {

@@ -536,6 +536,28 @@ TEST(Rows, LayersTellTheDistanceOfTheNearestPatch) {
   }
 }
 
+TEST(Rows, ALayerSeenFromBehindIsAsFarAsItsSurface) {
+  // All of the surface lies between 3 and 4.5.
+  std::mt19937 dice(11);
+  for (const RowLoops* loops : {&baseline::kRowLoops, &row_loops()}) {
+    FeetOfALayer feet(dice);
+    LayerJob job = feet.job(-12.0F);
+    job.by_surface = true;
+    std::array<float, LayerJob::kNodes> way;
+    std::array<float, LayerJob::kNodes> distance;
+    way.fill(30.0F);
+    distance.fill(30.0F);
+    loops->lower_to_layer(job, way.data(), distance.data());
+    for (std::size_t n = 0; n < way.size(); ++n) {
+      const double z = -12.0 + 0.5 * static_cast<double>(n & 3);
+      EXPECT_GE(way[n], -4.5 - z);
+      EXPECT_LT(way[n], 30.0F);
+      EXPECT_GE(distance[n], -4.75 - z);
+      EXPECT_LT(distance[n], 30.0F);
+    }
+  }
+}
+
 /// By the formulas of out_of_gradient_bounds(), one node at a time.
 TEST(Rows, BoundsAreThoseOfThePlainFormula) {
   const GradientBounds bounds{3.0F, 0.9F, 1.1F};

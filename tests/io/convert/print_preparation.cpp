@@ -140,6 +140,27 @@ TEST(PrintPreparation, DrainsEachLowOfACavity) {
   EXPECT_THAT(made.pieces.at(0).pockets, IsEmpty());
 }
 
+/// Two columns that meet in a neck hardly wider than two walls: by the wall that is asked for their
+/// cavities would leave a film there.
+TEST(PrintPreparation, ThickensAWallThatWouldLeaveAFilm) {
+  const double half_neck = 2.18;
+  const double apart = std::sqrt(64.0 - half_neck * half_neck);
+  TriangleMesh left = test::revolved({{0.001, 0, -6}, {8, 0, -6}, {8, 0, 6}, {0.001, 0, 6}}, 128);
+  TriangleMesh right = left;
+  for (Vec3& p : left.positions) p.x -= apart;
+  for (Vec3& p : right.positions) p.x += apart;
+  const Clay columns = clay_of(test::joined(left, right), 0.2);
+  PreparationOptions options = standing();
+  options.printer = resin_printer();
+  options.wall_mm = 2.0;
+  EXPECT_EQ(prepared(columns, options).wall_mm, 2.0);  // the printer takes any film
+  options.printer.min_wall_mm = 0.5;
+  const PrintPreparation made = prepared(columns, options);
+  EXPECT_GT(made.wall_mm, 2.0);
+  EXPECT_LE(made.wall_mm, 2.2);
+  EXPECT_TRUE(made.is_printable());
+}
+
 TEST(PrintPreparation, TellsOfABowlThatKeepsResin) {
   PreparationOptions options = standing();
   options.printer = resin_printer();

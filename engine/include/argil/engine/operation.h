@@ -41,8 +41,8 @@ struct Drain {
 /// Leaves a wall of this thickness and takes the inside away; the outer surface stays where it was,
 /// to a tenth of a voxel, but where drains pass it.
 struct Hollow {
-  /// From 3 finest voxels (resample finer for less) to half the longest side of the clay; some part
-  /// must be thicker than two such walls, and parts that are not stay solid.
+  /// From 3 finest voxels (resample finer for less) to half the longest side of the clay. Where two
+  /// voxels of cavity find no room between two such walls it stays solid; somewhere they must.
   double wall_mm = 0.0;
   /// None leaves the cavity closed.
   std::vector<Drain> drains;

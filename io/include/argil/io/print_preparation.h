@@ -64,6 +64,9 @@ struct PrintPreparation {
   std::vector<mesh::PrintOrientation> orientations;
   mesh::PrintOrientation chosen;  ///< figures with the base as it was cut or laid
   double cut_mm = 0.0;
+  /// As asked, or up to 10 % more where that keeps two cavities from leaving a film between them
+  /// that is thinner than the printer prints; 0: solid.
+  double wall_mm = 0.0;
   std::vector<PrintHole> holes;
   std::vector<PreparedPiece> pieces;
   int plugs = 0;  ///< that join the pieces; the last piece holds them all
