@@ -12,12 +12,14 @@
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/display_surface.h"
+#include "argil/engine/sculpture.h"
 #include "argil/engine/tool_mesh.h"
 #include "argil/io/export.h"
 #include "argil/io/session.h"
 #include "argil/mesh/check.h"
 
 #include "document/request.h"
+#include "picture/renderer.h"
 
 namespace argil::viewer {
 
@@ -58,7 +60,21 @@ struct Alpha {
   std::shared_ptr<const AlphaImage> image;
 };
 
-/// The clay and its document in numbers.
+/// A piece in the list.
+struct PieceState {
+  PieceKey key = 0;
+  PieceLook look;
+  Box3 bounds_mm;  ///< in its own frame, as its last step left it
+};
+
+/// The pieces of a sculpture.
+struct PieceList {
+  std::vector<PieceState> pieces;
+  std::size_t active = 0;  ///< of these
+  const PieceState& active_piece() const { return pieces[active]; }
+};
+
+/// The clay and its document in numbers. What is of one clay is of the active piece.
 struct ClayState {
   bool has_clay = false;
   std::int64_t number = 0;     ///< differs from clay to clay; saving under another name keeps it
@@ -66,10 +82,13 @@ struct ClayState {
   bool is_untitled = false;    ///< kept in the home folder until it is saved
   bool is_changed = false;     ///< since it was saved
   int undo_depth = 0;
-  std::shared_ptr<const StepNames> steps;  ///< null without clay
+  std::shared_ptr<const StepNames> steps;   ///< null without clay
+  std::shared_ptr<const PieceList> pieces;  ///< likewise
   bool has_mask = false;
   bool is_stroke_open = false;
-  Box3 bounds_mm;
+  Box3 bounds_mm;                 ///< in its own frame
+  Box3 all_bounds_mm;             ///< of all visible pieces where they stand
+  std::int64_t pieces_added = 0;  ///< so far, as the window shall see at once
   double voxel_mm = 0.0;
   std::vector<LevelStats> levels;
   ClayUse use;
@@ -89,6 +108,7 @@ struct PrintReport {
   std::optional<io::ExportReport> exported;
   std::string printer;
   std::int64_t changes = 0;  ///< ClayState::changes when it was judged
+  PieceKey piece = 0;        ///< in whose frame the problems lie
 };
 
 /// Long work that is under way.

@@ -53,7 +53,7 @@ class DocumentThread {
   std::optional<SlicePicture> take_slice() { return outbox_.take_slice(); }
 
   /// What a renderer has to take, once; with the input times whose dabs it shows.
-  BlockNews take_blocks(std::vector<double>& shown_inputs_s) {
+  SceneNews take_blocks(std::vector<double>& shown_inputs_s) {
     return outbox_.take_blocks(shown_inputs_s);
   }
   std::vector<Notice> take_notices() { return outbox_.take_notices(); }

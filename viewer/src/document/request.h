@@ -9,6 +9,7 @@
 #include "argil/core/clay_heartbeat.h"
 #include "argil/core/tool_sample.h"
 #include "argil/core/window_channel.h"
+#include "argil/engine/pick.h"
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
 #include "argil/io/export.h"
@@ -17,7 +18,8 @@
 
 namespace argil::viewer {
 
-// What the window asks for. Done in the order in which it was sent, on the document thread.
+// What the window asks for, in the sculpture's frame but where something else is said. Done in the
+// order in which it was sent, on the document thread.
 
 // A stroke arrives in pieces while the hand makes it.
 
@@ -36,9 +38,28 @@ struct EndStroke {};
 /// Takes back the whole gesture, with the strokes before this one that it goes on from.
 struct CancelStroke {};
 
-/// Undo, redo, an operation on the whole clay or its mask: one step of the journal.
+/// Undo, redo, an operation on the whole clay or its mask (in the active piece's frame), a piece:
+/// one step of the journal.
 struct DoStep {
   io::ScriptStep step;
+};
+
+/// Strokes go to the piece that a ray meets first; nothing where it meets none.
+struct SelectPieceAt {
+  Ray ray;
+};
+/// A ball beside all that is there, a third as large, in the voxels of the active piece.
+struct AddBallPiece {};
+/// A mesh as another piece, closed, where it stands in its file, 256 voxels along its longest side.
+struct ImportPiece {
+  std::filesystem::path file;
+};
+/// A copy of the active piece, in its place.
+struct DuplicatePiece {};
+/// Moves the active piece straight: its lowest point to z = 0, or the middle of the box around it
+/// to x = y = 0.
+struct StandPiece {
+  enum class Where { bed, middle } where = Where::bed;
 };
 
 /// Undo or redo as often as it takes until this many of ClayState::steps are done.
@@ -67,7 +88,8 @@ struct LoadStamp {
 struct LoadAlpha {
   std::filesystem::path file;
 };
-/// Says by a notice where a path of guidance does not lie on the clay; nothing where it does.
+/// Says by a notice where a path of guidance, in the active piece's frame, does not lie on the
+/// clay; nothing where it does.
 struct CheckPath {
   std::vector<Vec3> path_mm;
 };
@@ -108,6 +130,7 @@ struct LinkHaptics {
 struct UnlinkHaptics {};
 
 using Request = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep,
+                             SelectPieceAt, AddBallPiece, ImportPiece, DuplicatePiece, StandPiece,
                              NewClay, OpenFile, ForgetQuestion, DropProject, LoadStamp, LoadAlpha,
                              CheckPath, SaveProject, SaveProjectAs, EndProject, ExportMesh,
                              CheckPrint, LinkHaptics, UnlinkHaptics>;

@@ -32,6 +32,8 @@ void draw_info(UiState& ui);
 void draw_history(UiState& ui, DocumentThread& document);
 void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document);
 void draw_print(UiState& ui, DocumentThread& document);
+void draw_pieces(UiState& ui, DocumentThread& document);
+void draw_switch_hint(const UiState& ui);
 void draw_help(UiState& ui);
 void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
