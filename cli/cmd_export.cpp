@@ -153,8 +153,10 @@ Result<void> TogetherExport::add_piece(const std::string& project, const std::st
                                        std::int64_t recovered,
                                        const std::filesystem::path& temporary) {
   const Stopwatch watch;
+  PieceLook shown = look;
+  shown.name = name;
   const auto report =
-      io::add_piece(assembly_, name, look, clay, temporary, wanted_of(options_), progress_);
+      io::add_piece(assembly_, shown, clay, temporary, wanted_of(options_), progress_);
   const auto one = outcome_of(report, project, watch);
   if (!one) return one.error();
   Json json = {{"name", name}, {"file", project}, {"recovered_strokes", recovered}};

@@ -17,15 +17,15 @@ Affine affine_of_placement(const Placement& placement) {
 
 }  // namespace
 
-Result<ExportReport> add_piece(Assembly& assembly, const std::string& name, const PieceLook& look,
-                               const Clay& clay, const std::filesystem::path& temporary,
-                               const ExportOptions& options, const Progress& progress) {
+Result<ExportReport> add_piece(Assembly& assembly, const PieceLook& look, const Clay& clay,
+                               const std::filesystem::path& temporary, const ExportOptions& options,
+                               const Progress& progress) {
   auto report = export_mesh(temporary, clay, options, progress);
   if (!report) return report;
   auto mesh = read_mesh(temporary);
   if (!mesh) return mesh.error();
   assembly.items.push_back({"", {{assembly.objects.size(), affine_of_placement(look.placement)}}});
-  assembly.objects.push_back({name, look.color, std::move(mesh).value()});
+  assembly.objects.push_back({look.name, look.color, std::move(mesh).value()});
   return report;
 }
 
@@ -39,8 +39,7 @@ Result<std::vector<PieceExport>> export_pieces(const std::filesystem::path& file
     for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
       const PieceLook& look = sculpture.look(n);
       if (!look.is_visible) continue;
-      auto report =
-          add_piece(assembly, look.name, look, sculpture.clay(n), temporary, options, progress);
+      auto report = add_piece(assembly, look, sculpture.clay(n), temporary, options, progress);
       if (!report) {
         return Error{report.error().kind, "'" + look.name + "': " + report.error().message};
       }

@@ -110,10 +110,11 @@ TEST_F(PieceGesturesTest, APressOnAnotherPieceNeitherSculptsNorTurnsAndTwoMakeIt
   const Lens lens = ui_.camera.lens({});
   mouse_at(InputEvent::Kind::press, first);
   EXPECT_FALSE(gestures_.is_stroke_open());
-  EXPECT_TRUE(ui_.pieces.says_how_to_switch);
+  EXPECT_TRUE(ui_.pieces.refused_at);
   mouse_at(InputEvent::Kind::move, {first.x + 60.0, first.y});
   mouse_at(InputEvent::Kind::release, {first.x + 60.0, first.y});
   EXPECT_EQ(ui_.camera.lens({}), lens);
+  EXPECT_FALSE(ui_.pieces.refused_at) << "said near the press only";
   // Somewhere else it is no second press.
   mouse_at(InputEvent::Kind::press, {first.x + 60.0, first.y});
   mouse_at(InputEvent::Kind::release, {first.x + 60.0, first.y});

@@ -103,6 +103,7 @@ TEST(PieceFrame, TurnsThatWereTypedComeBack) {
         Vec3{35.0, 90.0, 0.0}, Vec3{-20.0, -90.0, 0.0}}) {
     EXPECT_LT(length(turns_of(orientation_of(turns)) - turns), 1e-6) << turns.x << ' ' << turns.y;
   }
+  EXPECT_FALSE(std::signbit(turns_of({}).y)) << "shown as -0.00";
   // First about x, then about y: what points up then lies to the right.
   const Placement turned_twice{{}, orientation_of({90.0, 90.0, 0.0})};
   EXPECT_LT(length(turned(turned_twice, {0.0, 1.0, 0.0}) - Vec3{1.0, 0.0, 0.0}), 1e-12);

@@ -412,6 +412,7 @@ void App::take_pieces() {
   if (std::exchange(active_piece_, active).value_or(active) != active) {
     ui_.operation.drains.clear();
     ui_.haptics.guidance.path_mm.clear();
+    ui_.pieces.refused_at.reset();
     asked_.reset();
   }
   const std::optional<PieceDrag>& drag = ui_.pieces.drag;
@@ -421,7 +422,6 @@ void App::take_pieces() {
   const auto answer = document_.answer();
   const bool is_over = ui_.is_pointer_over_clay_view && answer;
   ui_.other_under_pointer = is_over ? answer->other : "";
-  if (ui_.other_under_pointer.empty()) ui_.pieces.says_how_to_switch = false;
 }
 
 /// A ball, where nothing could be opened at the start or what a killed window left is not wanted.

@@ -50,7 +50,8 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       release(event);
       break;
     case InputEvent::Kind::scroll:
-      if (!is_taken && !is_asked) {
+      // A handle that is held stays where the camera saw it.
+      if (!is_taken && !is_asked && drag_ != Drag::piece) {
         ui_.camera.zoom(std::pow(kZoomStep, event.steps),
                         between_eyes(ui_.camera, ui_.show.is_stereo, pixel_of(event)));
       }
@@ -242,7 +243,7 @@ void Gestures::drag_brush(const InputEvent& event) {
 
 /// The piece follows the hand. A stroke reads the picture that it began in.
 void Gestures::puck(const InputEvent& event) {
-  if (drag_ == Drag::stroke) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::piece) return;
   Camera& camera = ui_.camera;
   const double pixels = kPuckWidths * camera.width() * event.puck_s;
   camera.pan(pixels * event.puck_shift.x, -pixels * event.puck_shift.y);

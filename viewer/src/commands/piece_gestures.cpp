@@ -74,6 +74,11 @@ bool PieceGestures::press(const InputEvent& event) {
 }
 
 void PieceGestures::move(const InputEvent& event) {
+  constexpr double kNearPixels = 40.0;
+  const auto& refused = ui_.pieces.refused_at;
+  if (refused && std::hypot(event.x - refused->x, event.y - refused->y) > kNearPixels) {
+    ui_.pieces.refused_at.reset();
+  }
   const WindowPart part = part_under_pointer(ui_, {event.x, event.y});
   const Camera::Pixel pixel = part.inside({event.x, event.y});
   if (drag_ && ui_.pieces.drag) {
@@ -112,7 +117,7 @@ void PieceGestures::press_on_other(const InputEvent& event) {
   const bool is_second =
       last_press_ && event.time_s - last_press_->time_s < kTwiceS &&
       std::hypot(event.x - last_press_->x, event.y - last_press_->y) < kTwicePixels;
-  ui_.pieces.says_how_to_switch = true;
+  ui_.pieces.refused_at = Camera::Pixel{event.x, event.y};
   if (!is_second) {
     last_press_ = event;
     return;

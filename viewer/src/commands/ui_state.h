@@ -148,6 +148,7 @@ struct PieceChoice {
   std::optional<PieceDrag> drag;
   std::string other;  ///< to merge with
   bool keeps_other = false;
+  std::optional<PieceKey> listed;   ///< the active one, to which the list was scrolled
   std::optional<PieceKey> renamed;  ///< whose name is being typed
   std::string new_name;
   std::string typed_color;
@@ -156,8 +157,8 @@ struct PieceChoice {
   Vec3 turns_deg;
   Quat turned;  ///< what those turns are
   bool is_typing = false;
-  bool says_how_to_switch =
-      false;  ///< a press was on another piece, over which the pointer still is
+  /// Where a press was on another piece, while the pointer is near: it is said how to sculpt that.
+  std::optional<Camera::Pixel> refused_at;
 };
 
 /// Pictures of a turntable: three seconds of a film.

@@ -27,7 +27,8 @@ struct DocumentThreadOptions {
 };
 
 /// A thread that owns the document (clay and session), does what is requested in order, and answers
-/// with blocks to draw and states to show. The caller never waits for it.
+/// with blocks to draw and states to show. The caller never waits for it. Views, rays, slices and
+/// strokes are in the sculpture's frame, whichever piece they meet.
 ///
 /// Threads  all but the constructor and the destructor: any thread, usually the window's.
 class DocumentThread {

@@ -109,13 +109,13 @@ class DocumentWorker {
   Outbox& outbox_;
   Document document_;
   SceneFeed feed_;
-  bool looks_at_all_ = true;   ///< other pieces than the active one may have changed, or the view
-  bool is_list_stale_ = true;  ///< pieces_ is not that of the sculpture
   std::shared_ptr<const PieceList> pieces_;
   std::int64_t pieces_added_ = 0;
   std::optional<DisplayView> view_;
-  bool is_new_ = false;       ///< the clay has not been shown yet
-  bool is_sketched_ = false;  ///< it has been shown, by its coarse levels alone
+  bool looks_at_all_ = true;   ///< other pieces than the active one may have changed, or the view
+  bool is_list_stale_ = true;  ///< pieces_ is not that of the sculpture
+  bool is_new_ = false;        ///< the clay has not been shown yet
+  bool is_sketched_ = false;   ///< it has been shown, by its coarse levels alone
   std::optional<SlicePlane> plane_;
   bool is_slice_stale_ = false;
   std::optional<Preview> preview_;  ///< of the open stroke, where its tool is large

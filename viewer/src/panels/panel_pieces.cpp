@@ -195,6 +195,10 @@ void draw_list(UiState& ui, DocumentThread& document) {
     draw_color(piece.look, ui.pieces.typed_color, document);
     ImGui::SameLine();
     draw_name(piece, n == list.active, ui, document);
+    // One that became active by other means than a click here comes into sight.
+    if (n == list.active && std::exchange(ui.pieces.listed, piece.key) != piece.key) {
+      ImGui::SetScrollHereY();
+    }
     ImGui::PopID();
   }
   ImGui::PopStyleVar();
@@ -310,9 +314,10 @@ void draw_pieces(UiState& ui, DocumentThread& document) {
 
 /// Beside the pointer, where a stroke was tried on a piece that is not the active one.
 void draw_switch_hint(const UiState& ui) {
-  if (!ui.pieces.says_how_to_switch || ui.other_under_pointer.empty()) return;
-  const std::string text =
-      in_quotes(ui.other_under_pointer) + " is another piece.\nAlt+Q or a double click: sculpt it";
+  if (!ui.pieces.refused_at) return;
+  const std::string& name = ui.other_under_pointer;
+  const std::string text = (name.empty() ? "This" : in_quotes(name)) +
+                           " is another piece.\nAlt+Q or a double click: sculpt it";
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const float margin = 4.0F * unit();
   const float most = ImGui::GetIO().DisplaySize.x - size.x - 2.0F * margin;

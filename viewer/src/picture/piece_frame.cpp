@@ -126,7 +126,8 @@ Vec3 turns_of(const Quat& orientation) noexcept {
   } else {
     turns.x = x.z < 0.0 ? std::atan2(y.x, y.y) : std::atan2(-y.x, y.y);
   }
-  return turns / kDegree;
+  // Without the sign that a zero may have got.
+  return turns / kDegree + Vec3{};
 }
 
 }  // namespace argil::viewer

@@ -18,12 +18,12 @@ struct PieceExport {
   ExportReport report;  ///< as if it were alone, in its own frame
 };
 
-/// Adds a piece to an assembly, where it stands: written as export_mesh does, to `temporary`,
-/// measured and judged; what was read back becomes an object of its own.
-/// Errors  as export_mesh and read_mesh: the assembly is as it was.
-Result<ExportReport> add_piece(Assembly& assembly, const std::string& name, const PieceLook& look,
-                               const Clay& clay, const std::filesystem::path& temporary,
-                               const ExportOptions& options, const Progress& progress = {});
+/// Adds a piece to an assembly, by its name and where it stands: written as export_mesh does, to
+/// `temporary`, measured and judged; what was read back becomes an object of its own. Errors  as
+/// export_mesh and read_mesh: the assembly is as it was.
+Result<ExportReport> add_piece(Assembly& assembly, const PieceLook& look, const Clay& clay,
+                               const std::filesystem::path& temporary, const ExportOptions& options,
+                               const Progress& progress = {});
 
 /// All visible pieces as objects of one 3MF, by their names and colours; the file appears only when
 /// all are written.
