@@ -77,8 +77,8 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     return;
   }
   if (event.key == kKeyEscape) {
-    const bool ends = ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain ||
-                      ui_.draws_path || ui_.turntable_left > 0;
+    const bool ends = leave_outline() || ui_.brush_drag || drag_ == Drag::stroke ||
+                      ui_.places_drain || ui_.draws_path || ui_.turntable_left > 0;
     ui_.places_drain = false;
     leave_path();
     ui_.turntable_left = 0;
@@ -96,7 +96,7 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
   }
   if (is_asked) return;
   // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
-  if (drag_ == Drag::stroke) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::outline) return;
   if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
     ui_.is_clutched = true;
     return;
@@ -135,6 +135,8 @@ void Gestures::press(const InputEvent& event) {
     drag_ = Drag::pan;
   } else if (event.button == MouseButton::left && !held.alt && ui_.is_hand_led) {
     drag_ = Drag::hand;
+  } else if (event.button == MouseButton::left && !held.alt && begin_outline(event)) {
+    drag_ = Drag::outline;
   } else if (event.button == MouseButton::right || held.alt || !begin_stroke(event)) {
     drag_ = Drag::orbit;
   } else {
@@ -190,6 +192,41 @@ void Gestures::leave_path() {
   ui_.draws_path = false;
 }
 
+// ---- outlines of masks and trims ---------------------------------------------------------------
+
+/// Whether the drag draws one: as chosen for the tool, or with Ctrl and Shift a lasso that masks,
+/// as in Blender.
+bool Gestures::begin_outline(const InputEvent& event) {
+  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
+  const Modifiers& held = event.modifiers;
+  OutlineDrag drag;
+  if (!(held.ctrl && held.shift)) {
+    if (held.shift) return false;  // smooths
+    drag.form = drag_form_of(ui_);
+    drag.is_trim = ui_.brush.action == Action::trim;
+  }
+  if (drag.form == DragForm::brush) return false;
+  drag.is_inverse = !held.shift && held.ctrl != ui_.brush.is_inverted;
+  drag.part = part_at(ui_.camera, ui_.show.is_stereo, pixel_of(event));
+  drag.points = {pixel_of(event)};
+  ui_.outline = std::move(drag);
+  return true;
+}
+
+void Gestures::end_outline() {
+  assert(ui_.outline);
+  if (auto step = step_of(*ui_.outline, ui_.clay.bounds_mm, ui_.outlines.front_only)) {
+    document_.send(DoStep{std::move(*step)});
+  }
+  ui_.outline.reset();
+}
+
+/// True where one was being drawn.
+bool Gestures::leave_outline() {
+  if (drag_ == Drag::outline) drag_ = Drag::none;
+  return std::exchange(ui_.outline, std::nullopt).has_value();
+}
+
 void Gestures::move(const InputEvent& event) {
   const double dx = event.x - ui_.pointer.x;
   const double dy = event.y - ui_.pointer.y;
@@ -199,12 +236,14 @@ void Gestures::move(const InputEvent& event) {
   if (drag_ == Drag::pan) ui_.camera.pan(dx, dy);
   if (drag_ == Drag::stroke) extend_stroke(event);
   if (drag_ == Drag::path) extend_path(event);
+  if (drag_ == Drag::outline) extend(*ui_.outline, pixel_of(event));
 }
 
 void Gestures::release(const InputEvent& event) {
   if (drag_ == Drag::none || event.button != button_) return;
   if (drag_ == Drag::stroke) end_stroke();
   if (drag_ == Drag::path) end_path();
+  if (drag_ == Drag::outline) end_outline();
   drag_ = Drag::none;
 }
 
@@ -224,7 +263,7 @@ void Gestures::drag_brush(const InputEvent& event) {
 
 /// The piece follows the hand. A stroke reads the picture that it began in.
 void Gestures::puck(const InputEvent& event) {
-  if (drag_ == Drag::stroke) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::outline) return;
   Camera& camera = ui_.camera;
   const double pixels = kPuckWidths * camera.width() * event.puck_s;
   camera.pan(pixels * event.puck_shift.x, -pixels * event.puck_shift.y);

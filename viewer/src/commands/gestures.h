@@ -43,7 +43,7 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan, path };
+  enum class Drag { none, stroke, hand, orbit, pan, path, outline };
   struct OpenStroke {
     Brush brush;
     double radius_mm = 1.0;
@@ -67,6 +67,9 @@ class Gestures {
   void extend_path(const InputEvent& event);
   void end_path();
   void leave_path();
+  bool begin_outline(const InputEvent& event);
+  void end_outline();
+  bool leave_outline();
   bool begin_stroke(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
