@@ -580,6 +580,7 @@ void App::take_over_path(bool had_clay) {
 
 void App::draw_panels() {
   // In this order they lie over each other; dialogs come after the panels, messages last.
+  draw_outline(ui_);
   draw_menu(ui_, document_);
   draw_tools(ui_);
   draw_brush(ui_, document_);
@@ -594,6 +595,7 @@ void App::draw_panels() {
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, document_);
   draw_operations(ui_, document_);
+  draw_import(ui_, document_);
   draw_export(ui_);
   files_.draw(ui_, document_);
   draw_save_question(ui_, document_);

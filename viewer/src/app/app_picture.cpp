@@ -85,6 +85,7 @@ void App::add_pieces(Picture& picture) const {
 }
 
 void App::add_rings(Picture& picture) const {
+  if (drag_form_of(ui_) != DragForm::brush) return;  // no size to show
   std::optional<SurfaceHit> hit = gestures_.tool_hit();
   double radius = gestures_.tool_radius_mm();
   if (!hit) {

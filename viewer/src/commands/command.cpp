@@ -405,6 +405,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
   if (ui.clay.left) return Dialog::recover;
   if (ui.asks_to_save) return Dialog::save_first;
   if (ui.file_wish != FileWish::none) return Dialog::file;
+  if (ui.panels.is_import_open) return Dialog::import_mesh;
   if (ui.panels.is_export_open) return Dialog::export_mesh;
   if (ui.panels.is_operations_open) return Dialog::operations;
   return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
@@ -415,6 +416,7 @@ void close_dialogs(UiState& ui) noexcept {
   ui.panels.is_new_open = false;
   ui.panels.is_operations_open = false;
   ui.panels.is_export_open = false;
+  ui.panels.is_import_open = false;
   ui.panels.has_help = false;
   ui.asks_to_save = false;
   ui.file_wish = FileWish::none;
@@ -447,6 +449,10 @@ void go_on_after_saving(bool saves, UiState& ui, DocumentThread& document) {
     case AfterSaving::make_new:
       document.send(NewClay{ui.waiting_start, saves});
       break;
+    case AfterSaving::import_mesh:
+      ui.waiting_import.saves_former = saves;
+      document.send(ui.waiting_import);
+      break;
     case AfterSaving::open_file:
       document.send(OpenFile{ui.waiting_file, saves});
       break;
@@ -459,6 +465,23 @@ void remember_folder_of(const std::filesystem::path& file, UiState& ui) {
   if (std::filesystem::is_directory(file.parent_path(), error)) ui.folder = file.parent_path();
 }
 
+/// Opens the dialog, which has something to ask once the mesh was looked at.
+void ask_about_mesh(const std::filesystem::path& file, UiState& ui, DocumentThread& document) {
+  const std::int64_t number = ui.import.number + 1;
+  ui.import = {};
+  ui.import.file = file;
+  ui.import.number = number;
+  ui.panels.is_import_open = true;
+  document.send(LookAtMesh{file, number});
+}
+
+void import_as_chosen(UiState& ui, DocumentThread& document) {
+  assert(ui.import.is_filled && ui.clay.offer);
+  ui.panels.is_import_open = false;
+  ui.waiting_import = request_of(ui.import, *ui.clay.offer);
+  leave_clay(AfterSaving::import_mesh, ui, document);
+}
+
 void open_file(const std::filesystem::path& file, UiState& ui, DocumentThread& document) {
   if (extension_of(file) == ".csv") {
     ui.haptics.replay_file = file;
@@ -466,8 +489,12 @@ void open_file(const std::filesystem::path& file, UiState& ui, DocumentThread& d
     ui.panels.has_haptics = true;
     return;
   }
-  ui.waiting_file = file;
   remember_folder_of(file, ui);
+  if (extension_of(file) != ".vdb") {
+    ask_about_mesh(file, ui, document);
+    return;
+  }
+  ui.waiting_file = file;
   leave_clay(AfterSaving::open_file, ui, document);
 }
 

@@ -78,8 +78,9 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     return;
   }
   if (event.key == kKeyEscape) {
-    const bool ends = pieces_.cancel() || ui_.brush_drag || drag_ == Drag::stroke ||
-                      ui_.places_drain || ui_.draws_path || ui_.turntable_left > 0;
+    const bool ends = pieces_.cancel() || leave_outline() || ui_.brush_drag ||
+                      drag_ == Drag::stroke || ui_.places_drain || ui_.draws_path ||
+                      ui_.turntable_left > 0;
     ui_.places_drain = false;
     leave_path();
     ui_.turntable_left = 0;
@@ -97,7 +98,7 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
   }
   if (is_asked) return;
   // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
-  if (drag_ == Drag::stroke || drag_ == Drag::piece) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
   if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
     ui_.is_clutched = true;
     return;
@@ -143,6 +144,7 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   if (event.button == MouseButton::right || held.alt) return Drag::orbit;
   if (pieces_.press(event)) return Drag::piece;
   if (ui_.is_hand_led) return Drag::hand;
+  if (begin_outline(event)) return Drag::outline;
   switch (begin_stroke(event)) {
     case Met::stroke:
       return Drag::stroke;
@@ -207,6 +209,42 @@ void Gestures::leave_path() {
   ui_.draws_path = false;
 }
 
+// ---- outlines of masks and trims ---------------------------------------------------------------
+
+/// Whether the drag draws one: as chosen for the tool, or with Ctrl and Shift a lasso that masks,
+/// as in Blender.
+bool Gestures::begin_outline(const InputEvent& event) {
+  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
+  const Modifiers& held = event.modifiers;
+  OutlineDrag drag;
+  if (!(held.ctrl && held.shift)) {
+    if (held.shift) return false;  // smooths
+    drag.form = drag_form_of(ui_);
+    drag.is_trim = ui_.brush.action == Action::trim;
+  }
+  if (drag.form == DragForm::brush) return false;
+  drag.is_inverse = !held.shift && held.ctrl != ui_.brush.is_inverted;
+  drag.part = part_at(ui_.camera, ui_.show.is_stereo, pixel_of(event));
+  drag.piece = shown_placement(ui_);
+  drag.points = {pixel_of(event)};
+  ui_.outline = std::move(drag);
+  return true;
+}
+
+void Gestures::end_outline() {
+  assert(ui_.outline);
+  if (auto step = step_of(*ui_.outline, ui_.clay.bounds_mm, ui_.outlines.front_only)) {
+    document_.send(DoStep{std::move(*step)});
+  }
+  ui_.outline.reset();
+}
+
+/// True where one was being drawn.
+bool Gestures::leave_outline() {
+  if (drag_ == Drag::outline) drag_ = Drag::none;
+  return std::exchange(ui_.outline, std::nullopt).has_value();
+}
+
 void Gestures::move(const InputEvent& event) {
   const double dx = event.x - ui_.pointer.x;
   const double dy = event.y - ui_.pointer.y;
@@ -217,6 +255,7 @@ void Gestures::move(const InputEvent& event) {
   if (drag_ == Drag::stroke) extend_stroke(event);
   if (drag_ == Drag::path) extend_path(event);
   if (drag_ == Drag::piece || drag_ == Drag::none) pieces_.move(event);
+  if (drag_ == Drag::outline) extend(*ui_.outline, pixel_of(event));
 }
 
 void Gestures::release(const InputEvent& event) {
@@ -224,6 +263,7 @@ void Gestures::release(const InputEvent& event) {
   if (drag_ == Drag::stroke) end_stroke();
   if (drag_ == Drag::path) end_path();
   if (drag_ == Drag::piece) pieces_.release();
+  if (drag_ == Drag::outline) end_outline();
   drag_ = Drag::none;
 }
 
@@ -243,7 +283,7 @@ void Gestures::drag_brush(const InputEvent& event) {
 
 /// The piece follows the hand. A stroke reads the picture that it began in.
 void Gestures::puck(const InputEvent& event) {
-  if (drag_ == Drag::stroke || drag_ == Drag::piece) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
   Camera& camera = ui_.camera;
   const double pixels = kPuckWidths * camera.width() * event.puck_s;
   camera.pan(pixels * event.puck_shift.x, -pixels * event.puck_shift.y);

@@ -44,7 +44,7 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan, path, piece };
+  enum class Drag { none, stroke, hand, orbit, pan, path, piece, outline };
   /// What a press of the left button meets.
   enum class Met { stroke, other_piece, nothing };
   struct OpenStroke {
@@ -70,6 +70,9 @@ class Gestures {
   void extend_path(const InputEvent& event);
   void end_path();
   void leave_path();
+  bool begin_outline(const InputEvent& event);
+  void end_outline();
+  bool leave_outline();
   Met begin_stroke(const InputEvent& event);
   Drag drag_of(const InputEvent& event);
   void extend_stroke(const InputEvent& event);

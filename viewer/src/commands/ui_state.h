@@ -17,6 +17,8 @@
 #include "argil/haptics/simulation/hand_model.h"
 
 #include "commands/brush.h"
+#include "commands/import_choice.h"
+#include "commands/outline.h"
 #include "document/document_thread.h"
 #include "document/settings.h"
 #include "picture/camera.h"
@@ -56,10 +58,20 @@ struct PanelState {
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
+  bool is_import_open = false;
 };
 
 /// Dialogs, which must be answered before anything else goes on.
-enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
+enum class Dialog {
+  none,
+  recover,
+  save_first,
+  file,
+  import_mesh,
+  export_mesh,
+  operations,
+  new_clay
+};
 
 /// What a file is asked for.
 enum class FileWish {
@@ -76,7 +88,7 @@ enum class FileWish {
 };
 
 /// What the window does once the question "Save first?" is answered.
-enum class AfterSaving { nothing, quit, make_new, open_file };
+enum class AfterSaving { nothing, quit, make_new, open_file, import_mesh };
 
 enum class DeviceChoice { mouse, sim, falcon, replay };
 
@@ -183,6 +195,8 @@ struct UiState {
   std::optional<Chord> chord;  ///< through the slice's material, under the pointer
   bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
+  OutlineChoice outlines;
+  std::optional<OutlineDrag> outline;  ///< while it is drawn
 
   FileWish file_wish = FileWish::none;
   AfterSaving after_saving = AfterSaving::nothing;
@@ -192,6 +206,8 @@ struct UiState {
   std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
   io::StartShape waiting_start{
       io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new
+  ImportChoice import;                                      ///< of the dialog about a mesh
+  ImportMesh waiting_import;                                ///< of AfterSaving::import_mesh
   HapticChoice haptics;
   OperationChoice operation;
   PieceChoice pieces;
@@ -223,5 +239,11 @@ struct UiState {
   Task task;
   std::shared_ptr<const PrintReport> report;
 };
+
+/// How a drag over the clay is taken: only masks and trims may be drawn by an outline.
+inline DragForm drag_form_of(const UiState& ui) noexcept {
+  if (ui.brush.action == Action::mask) return ui.outlines.mask;
+  return ui.brush.action == Action::trim ? ui.outlines.trim : DragForm::brush;
+}
 
 }  // namespace argil::viewer

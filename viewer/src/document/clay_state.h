@@ -18,6 +18,7 @@
 #include "argil/io/session.h"
 #include "argil/mesh/check.h"
 
+#include "document/mesh_offer.h"
 #include "document/request.h"
 #include "picture/renderer.h"
 
@@ -98,8 +99,9 @@ struct ClayState {
   std::int64_t changes = 0;  ///< so far: strokes, steps, another clay
   double last_dab_ms = 0.0;  ///< wall time, its surface included
   std::optional<LeftQuestion> left;
-  std::shared_ptr<const Stamp> stamp;  ///< the last one that was loaded; null: none
-  std::shared_ptr<const Alpha> alpha;  ///< likewise
+  std::shared_ptr<const Stamp> stamp;      ///< the last one that was loaded; null: none
+  std::shared_ptr<const Alpha> alpha;      ///< likewise
+  std::shared_ptr<const MeshOffer> offer;  ///< the last mesh that was looked at; null: none
 };
 
 /// The verdict on the last CheckPrint or ExportMesh.

@@ -53,6 +53,7 @@ void DocumentWorker::post_state() {
   state.left = left_;
   state.stamp = stamp_;
   state.alpha = alpha_;
+  state.offer = offer_;
   state.dabs = dabs_;
   state.strokes = strokes_;
   state.changes = changes_;
@@ -539,12 +540,34 @@ void DocumentWorker::on(const OpenFile& open) {
   // Recovering repeats every step that was left, and importing works out a field: both may be long.
   const Progress progress = outbox_.begin_task(is_clay ? "open" : "import");
   auto opened = is_clay ? document_.open(open.file, open.saves_former, progress)
-                        : document_.import(open.file, open.saves_former, progress);
+                        : document_.import(open.file, {}, open.saves_former, progress);
   outbox_.end_task();
   if (!opened) return complain(opened.error());
   clay_changed_hands();
   post_all(opened.value());
   post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + file_in_quotes(open.file));
+}
+
+/// The dialog says meanwhile that it is read. What cannot be read is an offer without a file, which
+/// closes the dialog.
+void DocumentWorker::on(const LookAtMesh& look) {
+  auto seen = look_at_mesh(look.file);
+  if (!seen) complain(seen.error());
+  MeshOffer offer = seen ? std::move(seen).value() : MeshOffer();
+  offer.number = look.number;
+  offer_ = std::make_shared<const MeshOffer>(std::move(offer));
+}
+
+void DocumentWorker::on(const ImportMesh& wanted) {
+  left_.reset();
+  if (document_.has_project()) end_open_stroke();
+  const Progress progress = outbox_.begin_task("import");
+  auto imported = document_.import(wanted.file, wanted.how, wanted.saves_former, progress);
+  outbox_.end_task();
+  if (!imported) return complain(imported.error());
+  clay_changed_hands();
+  post_all(imported.value());
+  post(Notice::Kind::done, "imported " + file_in_quotes(wanted.file));
 }
 
 void DocumentWorker::on(const DropProject& drop) {

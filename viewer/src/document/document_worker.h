@@ -65,6 +65,8 @@ class DocumentWorker {
   void on(const StandPiece& wanted);
   void on(const NewClay& make);
   void on(const OpenFile& open);
+  void on(const LookAtMesh& look);
+  void on(const ImportMesh& wanted);
   void on(const ForgetQuestion&) { left_.reset(); }
   void on(const DropProject& drop);
   void on(const LoadStamp& load);
@@ -133,6 +135,7 @@ class DocumentWorker {
   std::shared_ptr<const PrintReport> report_;
   std::shared_ptr<const Stamp> stamp_;
   std::shared_ptr<const Alpha> alpha_;
+  std::shared_ptr<const MeshOffer> offer_;
   std::shared_ptr<const StepNames> step_names_;
   std::int64_t named_changes_ = -1;  ///< changes_ when these were made
   std::string told_problem_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <variant>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "argil/io/export.h"
 #include "argil/io/stroke_script.h"
 #include "argil/mesh/printer.h"
+
+#include "document/mesh_offer.h"
 
 namespace argil::viewer {
 
@@ -80,6 +83,17 @@ struct OpenFile {
   /// What becomes of steps that a killed session left.
   enum class Left { ask, repeat, put_aside } left = Left::ask;
 };
+/// Looks at a mesh that may be imported: it becomes ClayState::offer once it is read.
+struct LookAtMesh {
+  std::filesystem::path file;
+  std::int64_t number = 0;  ///< given back in the offer
+};
+/// A mesh that becomes clay, as OpenFile, in the way that was chosen.
+struct ImportMesh {
+  std::filesystem::path file;
+  MeshImport how;
+  bool saves_former = true;
+};
 /// A closed mesh to stamp with: it becomes ClayState::stamp once it is read.
 struct LoadStamp {
   std::filesystem::path file;
@@ -131,8 +145,8 @@ struct UnlinkHaptics {};
 
 using Request = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep,
                              SelectPieceAt, AddBallPiece, ImportPiece, DuplicatePiece, StandPiece,
-                             NewClay, OpenFile, ForgetQuestion, DropProject, LoadStamp, LoadAlpha,
-                             CheckPath, SaveProject, SaveProjectAs, EndProject, ExportMesh,
-                             CheckPrint, LinkHaptics, UnlinkHaptics>;
+                             NewClay, OpenFile, LookAtMesh, ImportMesh, ForgetQuestion, DropProject,
+                             LoadStamp, LoadAlpha, CheckPath, SaveProject, SaveProjectAs,
+                             EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 }  // namespace argil::viewer

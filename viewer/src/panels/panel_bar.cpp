@@ -209,7 +209,11 @@ void draw_task(const UiState& ui, DocumentThread& document) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.12F * screen.y}, ImGuiCond_Always, {0.5F, 0.0F});
   ImGui::SetNextWindowSize({360.0F * unit(), 0.0F});
-  ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
+  // Without focus: it may appear in the frame in which a dialog does, and Dear ImGui 1.86 takes no
+  // window then that wants it.
+  ImGui::Begin("##task", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::TextUnformatted(ui.task.name.c_str());
   if (ui.task.has_progress) {
     ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
@@ -238,6 +242,7 @@ void draw_mouse_keys() {
   draw_key("sculpt", "Left");
   draw_key("the opposite", "Ctrl+Left");
   draw_key("smooth", "Shift+Left");
+  draw_key("mask by a lasso", "Ctrl+Shift+Left");
   draw_key("turn", "Right");
   draw_key("turn", "Alt+Left");
   draw_key("turn", "Left beside it");

@@ -24,6 +24,7 @@ struct FrameState {
 
 // Each draws from the state and writes choices into it. What they do goes through commands and
 // requests.
+void draw_outline(const UiState& ui);
 void draw_menu(UiState& ui, DocumentThread& document);
 void draw_tools(UiState& ui);
 void draw_brush(UiState& ui, DocumentThread& document);
@@ -42,6 +43,7 @@ void draw_messages(UiState& ui, MessageLog& log);
 void draw_task(const UiState& ui, DocumentThread& document);
 void draw_new_dialog(UiState& ui, DocumentThread& document);
 void draw_operations(UiState& ui, DocumentThread& document);
+void draw_import(UiState& ui, DocumentThread& document);
 void draw_export(UiState& ui);
 void draw_save_question(UiState& ui, DocumentThread& document);
 void draw_left_question(UiState& ui, DocumentThread& document);
