@@ -14,9 +14,8 @@
 
 namespace argil::viewer {
 
-/// The news of a sculpture that has a single piece.
+/// The news of a sculpture that has a single piece; of several, that of the first.
 inline BlockNews only_piece(SceneNews&& news) {
-  EXPECT_LE(news.pieces.size(), 1U);
   BlockNews only;
   if (!news.pieces.empty()) only = std::move(news.pieces.begin()->second);
   // Another sculpture, or none.
