@@ -10,7 +10,7 @@
 
 #include "argil/io/assembly.h"
 #include "argil/io/export.h"
-#include "argil/io/mesh_file.h"
+#include "argil/io/piece_export.h"
 #include "argil/io/project_file.h"
 #include "argil/io/safe_file.h"
 #include "argil/io/volume_file.h"
@@ -91,16 +91,17 @@ Result<void> write_report(const std::filesystem::path& file, const Json& json) {
   return io::replace_text(file, json.dump(2) + "\n");
 }
 
-/// One clay as a mesh, measured, read back and judged.
-Result<Outcome> export_to(const std::filesystem::path& file, const std::string& project,
-                          const Clay& clay, const ExportArguments& options,
-                          const Progress& progress) {
-  const Stopwatch watch;
+io::ExportOptions wanted_of(const ExportArguments& options) {
   io::ExportOptions wanted;
   wanted.triangles = options.triangles;
   wanted.max_error_mm = options.max_error_mm;
   wanted.parts = options.parts;
-  const auto report = io::export_mesh(file, clay, wanted, progress);
+  return wanted;
+}
+
+/// One clay as a mesh, measured, read back and judged.
+Result<Outcome> outcome_of(const Result<io::ExportReport>& report, const std::string& project,
+                           const Stopwatch& watch) {
   if (!report) return named(project, report.error());
   Outcome outcome;
   outcome.json = export_json(report.value(), watch.seconds());
@@ -115,7 +116,10 @@ Result<Outcome> export_as_mesh(const ExportArguments& options, const Progress& p
   const std::string& project = options.projects[0];
   const auto opened = open_clay(project, options.piece, progress);
   if (!opened) return opened.error();
-  auto outcome = export_to(options.mesh, project, opened.value().clay, options, progress);
+  const Stopwatch watch;
+  const auto report =
+      io::export_mesh(options.mesh, opened.value().clay, wanted_of(options), progress);
+  auto outcome = outcome_of(report, project, watch);
   if (!outcome) return outcome;
   outcome.value().json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.value().text += "saved '" + options.mesh.string() + "'\n";
@@ -144,20 +148,17 @@ class TogetherExport {
   Outcome all_;
 };
 
-io::Affine affine_of(const Placement& placement) {
-  const Quat& q = placement.orientation;
-  return {{rotate(q, {1.0, 0.0, 0.0}), rotate(q, {0.0, 1.0, 0.0}), rotate(q, {0.0, 0.0, 1.0}),
-           placement.position_mm}};
-}
-
 Result<void> TogetherExport::add_piece(const std::string& project, const std::string& name,
                                        const PieceLook& look, const Clay& clay,
                                        std::int64_t recovered,
                                        const std::filesystem::path& temporary) {
-  const auto one = export_to(temporary, project, clay, options_, progress_);
+  const Stopwatch watch;
+  PieceLook shown = look;
+  shown.name = name;
+  const auto report =
+      io::add_piece(assembly_, shown, clay, temporary, wanted_of(options_), progress_);
+  const auto one = outcome_of(report, project, watch);
   if (!one) return one.error();
-  auto mesh = io::read_mesh(temporary);
-  if (!mesh) return mesh.error();
   Json json = {{"name", name}, {"file", project}, {"recovered_strokes", recovered}};
   json.update(one.value().json);
   all_.json["triangles"] = all_.json["triangles"].get<std::int64_t>() +
@@ -165,8 +166,6 @@ Result<void> TogetherExport::add_piece(const std::string& project, const std::st
   all_.json["projects"].push_back(std::move(json));
   all_.text += "'" + (name == look.name ? name : project) + "': " + one.value().text;
   all_.status = std::max(all_.status, one.value().status);
-  assembly_.items.push_back({"", {{assembly_.objects.size(), affine_of(look.placement)}}});
-  assembly_.objects.push_back({name, look.color, std::move(mesh).value()});
   return {};
 }
 

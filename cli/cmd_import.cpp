@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "argil/engine/import.h"
@@ -355,24 +354,12 @@ Result<Outcome> PartsImport::run() {
   return imported.error();
 }
 
-/// A name that a piece can have and no other has yet.
-std::string piece_name(std::string name, std::size_t number, const std::set<std::string>& taken) {
-  while (!name.empty() && !validate_look({.name = name})) name.pop_back();
-  if (name.empty()) name = "Part " + std::to_string(number);
-  std::string free = name;
-  for (int n = 2; taken.contains(free); ++n) {
-    const std::string end = " " + std::to_string(n);
-    free = name.substr(0, Sculpture::kMostBytesOfAName - end.size()) + end;
-  }
-  return free;
-}
-
 /// The parts as pieces of one project.
 Result<Outcome> import_pieces(const ImportOptions& options, const io::PreparedParts& prepared,
                               const Progress& progress) {
   const double voxel_mm = voxel_for(options, prepared.largest_side_mm);
   std::vector<Sculpture::ReadyPiece> pieces;
-  std::set<std::string> taken;
+  const std::vector<std::string> names = io::piece_names(prepared.names);
   Outcome outcome;
   outcome.json["voxel_mm"] = voxel_mm;
   outcome.json["pieces"] = Json::array();
@@ -386,8 +373,7 @@ Result<Outcome> import_pieces(const ImportOptions& options, const io::PreparedPa
       error.message += " (part '" + prepared.names[n] + "')";
       return error;
     }
-    const std::string name = piece_name(prepared.names[n], n + 1, taken);
-    taken.insert(name);
+    const std::string& name = names[n];
     const auto [found, notes] = compare(part, imported.value(), voxel_mm);
     Json json = {{"name", name}};
     json.update(

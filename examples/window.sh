@@ -37,3 +37,17 @@ picture filtered 1180x600 'settle\nmove 540 250\nframes 600\nmove 670 330\nframe
   --device sim --filter 0.02 --filter-lambda 5
 # A stroke in the half of the right eye.
 picture stereo 860x480 'settle\nkey Tab\nkey Shift+Z\nframes 3\ndrag left 590 250 710 190 20\nsettle\nmove 660 330\nframes 1000'
+
+# A head on a body: two pieces, of which the head is turned.
+printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":11,"voxel_mm":0.3}}' \
+  '{"tool":"inflate","shape":"ball","radius_mm":4,"strength":1,"poses":[[0,0,-11,-1],[0.01,0,-12.5,-1],[0.02,0,-13,-1]]}' \
+  '{"tool":"carve","shape":"ball","radius_mm":1.8,"poses":[[0,3.8,-10.2,3.4]]}' \
+  '{"tool":"carve","shape":"ball","radius_mm":1.8,"poses":[[0,-3.8,-10.2,3.4]]}' > "$work/head.strokes.jsonl"
+"$argil" sculpt --strokes "$work/head.strokes.jsonl" -o "$work/head.vdb" --quiet
+printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":18,"voxel_mm":0.4}}' \
+  '{"tool":"add","shape":"ball","radius_mm":6,"poses":[[0,-14,-4,8],[0.01,-22,-8,-2]]}' \
+  '{"tool":"add","shape":"ball","radius_mm":6,"poses":[[0,14,-4,8],[0.01,22,-8,-2]]}' \
+  '{"piece":"change","name":"Clay","new_name":"Body"}' \
+  '{"piece":"add","name":"Head","of":"head.vdb","position_mm":[0,-2,25],"color":"#e0ac8c"}' > "$work/two.strokes.jsonl"
+"$argil" sculpt --strokes "$work/two.strokes.jsonl" -o "$work/piece.vdb" --quiet
+picture pieces 1180x660 'settle\nkey Ctrl+P\nkey Shift+G\nframes 3\nclick ##ry\nframes 3\nkey Ctrl+A\ntype 30\nkey Enter\nsettle\nmove 760 620\nframes 1000'

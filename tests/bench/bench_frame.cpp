@@ -60,7 +60,7 @@ std::vector<BlockMesh> blocks_of(const Clay& clay) {
 double put_ms(viewer::Renderer& renderer, std::span<const BlockMesh> blocks) {
   const double before = wall_ms();
   for (const BlockMesh& block : blocks) {
-    if (const auto done = renderer.put(block); !done) stop(done.error().message);
+    if (const auto done = renderer.put(0, block); !done) stop(done.error().message);
   }
   glFinish();
   return wall_ms() - before;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -25,6 +26,12 @@ struct ClayAccess {
   static std::uint64_t revision(const Clay& clay) noexcept;
   static std::optional<std::vector<LeafChange>> changes_since(const Clay& clay,
                                                               std::uint64_t since);
+  /// What makes a mask of the levels' own one, in this many bytes; null for one of nothing.
+  using MaskMaker =
+      std::function<std::shared_ptr<Mask>(const LevelStack& stack, std::int64_t free_bytes)>;
+  /// Puts another mask in the place of the clay's, as one undo step. Errors  bad_input while a
+  /// stroke is open; memory where `make` throws bad_alloc, which leaves all as it was.
+  static Result<void> change_mask(Clay& clay, const MaskMaker& make);
 };
 
 /// Valid until the clay changes or moves.

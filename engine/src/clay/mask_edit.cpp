@@ -8,6 +8,7 @@
 
 #include "argil/engine/clay.h"
 
+#include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "field/mask.h"
 #include "field/mask_reach.h"
@@ -139,16 +140,22 @@ std::shared_ptr<Mask> edited(const LevelStack& stack, MaskEdit edit, std::int64_
 }  // namespace
 
 Result<void> Clay::apply(MaskEdit edit) {
-  State& state = *state_;
-  const ChangingCall call(state.user);
-  if (state.open) return stroke_is_open();
   if (edit < MaskEdit::clear || edit > MaskEdit::fill) {
     return Error{ErrorKind::bad_input, "the mask edit has the number " +
                                            std::to_string(static_cast<int>(edit)) +
                                            "; must be clear, invert, blur or fill"};
   }
+  return ClayAccess::change_mask(*this, [edit](const LevelStack& stack, std::int64_t free_bytes) {
+    return edited(stack, edit, free_bytes);
+  });
+}
+
+Result<void> ClayAccess::change_mask(Clay& clay, const MaskMaker& make) {
+  Clay::State& state = *clay.state_;
+  const ChangingCall call(state.user);
+  if (state.open) return stroke_is_open();
   try {
-    auto mask = edited(*state.levels, edit, state.free_bytes());
+    auto mask = make(*state.levels, state.free_bytes());
     state.history.make_room();
     state.push_undo(FormerMask{state.levels->exchange_mask(std::move(mask))});
     return {};

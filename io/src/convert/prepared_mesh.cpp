@@ -6,11 +6,13 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "argil/core/no_throw.h"
 #include "argil/engine/import_estimate.h"
+#include "argil/engine/sculpture.h"
 #include "argil/io/assembly.h"
 #include "argil/io/body_parts.h"
 #include "argil/mesh/compact.h"
@@ -166,7 +168,29 @@ Result<PreparedParts> prepare_parts(ReadAssembly read, const std::filesystem::pa
   return prepared;
 }
 
+/// A name that a piece can have and no other has yet.
+std::string piece_name(std::string name, std::size_t number, const std::set<std::string>& taken) {
+  while (!name.empty() && !validate_look({.name = name})) name.pop_back();
+  if (name.empty()) name = "Part " + std::to_string(number);
+  std::string free = name;
+  for (int n = 2; taken.contains(free); ++n) {
+    const std::string end = " " + std::to_string(n);
+    free = name.substr(0, Sculpture::kMostBytesOfAName - end.size()) + end;
+  }
+  return free;
+}
+
 }  // namespace
+
+std::vector<std::string> piece_names(const std::vector<std::string>& part_names) {
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const std::string& part : part_names) {
+    names.push_back(piece_name(part, names.size() + 1, taken));
+    taken.insert(names.back());
+  }
+  return names;
+}
 
 Result<PreparedMesh> read_prepared_mesh(const std::filesystem::path& file,
                                         const MeshPreparation& wanted) {

@@ -11,6 +11,7 @@
 #include "format/json_fields.h"
 #include "script/script_line.h"
 #include "script/script_operation.h"
+#include "script/script_outline.h"
 #include "script/script_piece.h"
 
 namespace argil::io {
@@ -396,6 +397,7 @@ Result<ScriptLine> read_script_line(const FileLine& where, std::string_view line
   if (json.contains("history")) return as_line<ScriptStep>(read_history(where, json));
   if (json.contains("operation")) return as_line<ScriptStep>(read_operation(where, json, solids));
   if (json.contains("piece")) return as_line<ScriptStep>(read_piece_edit(where, json, solids));
+  if (is_mask_outline(json)) return as_line<ScriptStep>(read_mask_outline(where, json));
   if (json.contains("mask")) return as_line<ScriptStep>(read_mask_edit(where, json));
   if (json.contains("after")) return as_line<HashMark>(read_mark(where, json));
   return as_line<ScriptStep>(read_stroke(where, json, solids));

@@ -8,6 +8,7 @@
 #include "format/json_fields.h"
 #include "script/script_line.h"
 #include "script/script_operation.h"
+#include "script/script_outline.h"
 #include "script/script_piece.h"
 
 namespace argil::io {
@@ -113,6 +114,10 @@ OrderedJson step_json(MaskEdit edit, const SolidName&) {
   OrderedJson json;
   json["mask"] = kMaskNames.at(static_cast<std::size_t>(edit));
   return json;
+}
+
+OrderedJson step_json(const MaskOutline& outline, const SolidName&) {
+  return mask_outline_json(outline);
 }
 
 OrderedJson step_json(const Operation& operation, const SolidName& solid) {

@@ -14,6 +14,15 @@
 
 namespace argil::viewer {
 
+/// The news of a sculpture that has a single piece; of several, that of the first.
+inline BlockNews only_piece(SceneNews&& news) {
+  BlockNews only;
+  if (!news.pieces.empty()) only = std::move(news.pieces.begin()->second);
+  // Another sculpture, or none.
+  only.is_fresh = only.is_fresh || !news.gone.empty();
+  return only;
+}
+
 /// A document's thread whose home is a folder that goes with the test.
 class DocumentThreadTest : public testing::Test {
  protected:
@@ -28,8 +37,9 @@ class DocumentThreadTest : public testing::Test {
   static StrokeSample at(double time_s, const Vec3& place) { return {time_s, place, {}, 1.0}; }
 
   /// Waits until all was done, and takes the blocks as a renderer would.
-  BlockNews settle() {
-    BlockNews all;
+  BlockNews settle() { return only_piece(settle_all()); }
+  SceneNews settle_all() {
+    SceneNews all;
     do {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
       std::vector<double> inputs;

@@ -78,7 +78,7 @@ TEST(DocumentWorker, ShowsALargeClayByItsCoarseLevelsAtOnceAndThenAsItIs) {
   std::vector<double> inputs;
   worker.perform(OpenFile{folder / "p.vdb"});
   worker.show();
-  const BlockNews coarse = outbox.take_blocks(inputs);
+  const BlockNews coarse = only_piece(outbox.take_blocks(inputs));
   ASSERT_TRUE(coarse.is_fresh);
   EXPECT_TRUE(outbox.state().has_clay);
   EXPECT_TRUE(worker.has_backlog());
@@ -86,7 +86,7 @@ TEST(DocumentWorker, ShowsALargeClayByItsCoarseLevelsAtOnceAndThenAsItIs) {
   worker.show();
   EXPECT_FALSE(worker.has_backlog());
   std::map<BlockId, BlockMesh> held = coarse.changed;
-  BlockNews news = outbox.take_blocks(inputs);
+  BlockNews news = only_piece(outbox.take_blocks(inputs));
   EXPECT_FALSE(news.is_fresh);
   for (const BlockId& id : news.gone) held.erase(id);
   for (auto& [id, block] : news.changed) held.insert_or_assign(id, std::move(block));
@@ -147,12 +147,12 @@ TEST_F(DocumentThreadTest, ALargeToolIsPreviewedAndEndsAsItsStroke) {
     whole.samples.push_back(sample);
     thread_.send(ExtendStroke{{sample}, 0.0});
     std::vector<double> inputs;
-    follow(thread_.take_blocks(inputs));
+    follow(only_piece(thread_.take_blocks(inputs)));
   }
   // Shown before the clay is there.
   for (int n = 0; n < 2000 && !was_previewed; ++n) {
     std::vector<double> inputs;
-    BlockNews news = thread_.take_blocks(inputs);
+    BlockNews news = only_piece(thread_.take_blocks(inputs));
     for (const auto& [id, block] : news.changed) {
       was_previewed = was_previewed || block.bounds_mm.max.x > 48.0;
     }

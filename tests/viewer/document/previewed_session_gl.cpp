@@ -16,6 +16,7 @@
 #include "document/document_thread.h"
 #include "support/bumpy_clay.h"
 #include "support/scratch.h"
+#include "viewer/document/document_fixture.h"
 #include "viewer/support/scene.h"
 
 namespace argil::test {
@@ -73,10 +74,10 @@ class PreviewedSessionGl : public RendererScene {
   /// Takes what there is and looks at it.
   void look() {
     std::vector<double> inputs;
-    const BlockNews news = thread_.take_blocks(inputs);
+    const BlockNews news = viewer::only_piece(thread_.take_blocks(inputs));
     if (news.empty()) return;
     if (news.is_fresh) renderer_->clear();
-    for (const BlockId& id : news.gone) renderer_->drop(id);
+    for (const BlockId& id : news.gone) renderer_->drop(0, id);
     for (const auto& [id, block] : news.changed) {
       put(block);
       seams_ += id.origin[0] % 8 != 0 ? 1 : 0;

@@ -67,7 +67,7 @@ TEST_F(RendererBlocksGl, UploadsTheChangedBlocksAndNothingElse) {
   ASSERT_TRUE(surface.update(clay).ok());
   ASSERT_FALSE(surface.changed().empty());
   expected = 0;
-  for (const BlockId& id : surface.gone()) renderer_->drop(id);
+  for (const BlockId& id : surface.gone()) renderer_->drop(0, id);
   for (const BlockId& id : surface.changed()) {
     const DisplayBlock from = surface.block(id);
     const BlockMesh block{id,
@@ -127,7 +127,7 @@ TEST_F(RendererBlocksGl, APictureIsDrawnAgainOnlyWhenItOrTheBlocksChanged) {
   EXPECT_EQ(draws(picture), 0);
   put(ball);
   EXPECT_EQ(draws(picture), 1);
-  renderer_->drop(ball.id);
+  renderer_->drop(0, ball.id);
   EXPECT_EQ(draws(picture), 1);
   renderer_->clear();
   EXPECT_EQ(draws(picture), 1);
@@ -142,7 +142,7 @@ TEST_F(RendererBlocksGl, DropAndClearFreeMemory) {
   for (int i = 0; i < 20; ++i) put(small_ball(i, i));
   EXPECT_GT(renderer_->counts().memory_bytes, 0);
   EXPECT_GT(renderer_->counts().objects, bare.objects);
-  for (int i = 0; i < 20; ++i) renderer_->drop(small_ball(i, i).id);
+  for (int i = 0; i < 20; ++i) renderer_->drop(0, small_ball(i, i).id);
   EXPECT_EQ(renderer_->counts().memory_bytes, 0);
   EXPECT_EQ(renderer_->counts().objects, bare.objects);
 
@@ -217,7 +217,7 @@ TEST_F(RendererBlocksGl, ManyEditsInAnyOrderShowTheLastOfEach) {
     BlockMesh block = small_ball(i, j, 1 + static_cast<int>(random() % 3));
     if (random() % 3 == 0) block.mask.assign(block.vertices.size(), 255);
     if (random() % 4 == 0) {
-      renderer_->drop(block.id);
+      renderer_->drop(0, block.id);
       kept.erase(block.id);
     } else {
       put(block);

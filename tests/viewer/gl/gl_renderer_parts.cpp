@@ -53,7 +53,7 @@ class RendererPartsGl : public RendererScene {
     const Vec3 at{x_mm, -std::sqrt(kBallRadiusMm * kBallRadiusMm - x_mm * x_mm), 0.0};
     ASSERT_TRUE(clay_->apply(stroke_of(Action::carve, 1.0, 1.0, {at})).ok());
     ASSERT_TRUE(surface_.update(*clay_).ok());
-    for (const BlockId& id : surface_.gone()) renderer_->drop(id);
+    for (const BlockId& id : surface_.gone()) renderer_->drop(0, id);
     for (const BlockId& id : surface_.changed()) {
       const DisplayBlock from = surface_.block(id);
       put({id,

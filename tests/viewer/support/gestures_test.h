@@ -25,6 +25,7 @@ class GesturesTest : public testing::Test {
     depth.depth_mm.assign(
         static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height),
         static_cast<float>(part.camera.distance_mm()));
+    if (is_wall_other_) depth.is_other.assign(depth.depth_mm.size(), 1);
     return {depth, part};
   }
 
@@ -51,6 +52,7 @@ class GesturesTest : public testing::Test {
   }
 
   Camera::Pixel pointer_{32.0, 32.0};
+  bool is_wall_other_ = false;  ///< the wall is another piece than the active one
   test::ScratchFolder folder_;
   UiState ui_;
   DocumentThread document_{DocumentThreadOptions{folder_.path()}};

@@ -77,7 +77,7 @@ void RendererScene::TearDown() {
 }
 
 void RendererScene::put(const BlockMesh& block) {
-  const auto done = renderer_->put(block);
+  const auto done = renderer_->put(0, block);
   ASSERT_TRUE(done.ok()) << done.error().message;
 }
 

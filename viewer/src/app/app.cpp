@@ -15,6 +15,7 @@
 
 #include "base/text.h"
 #include "commands/command.h"
+#include "commands/piece_gestures.h"
 #include "document/document.h"
 #include "document/printer_list.h"
 #include "haptics/felt_tool.h"
@@ -347,14 +348,23 @@ void App::take_events(const std::vector<InputEvent>& events) {
   }
 }
 
-void App::take_news() {
-  const BlockNews news = document_.take_blocks(shown_inputs_s_);
-  if (news.is_fresh) renderer_->clear();
-  if (!news.empty()) has_new_blocks_ = true;
-  for (const BlockId& id : news.gone) renderer_->drop(id);
+/// Errors  memory.
+Result<void> App::take_blocks(PieceKey piece, const BlockNews& news) {
+  if (news.is_fresh) renderer_->drop(piece);
+  for (const BlockId& id : news.gone) renderer_->drop(piece, id);
   for (const auto& [id, block] : news.changed) {
-    if (auto put = renderer_->put(block); !put) {
-      tell(notice_of(put.error()));
+    if (auto put = renderer_->put(piece, block); !put) return put;
+  }
+  return {};
+}
+
+void App::take_news() {
+  const SceneNews news = document_.take_blocks(shown_inputs_s_);
+  if (!news.empty()) has_new_blocks_ = true;
+  for (const PieceKey piece : news.gone) renderer_->drop(piece);
+  for (const auto& [piece, blocks] : news.pieces) {
+    if (auto taken = take_blocks(piece, blocks); !taken) {
+      tell(notice_of(taken.error()));
       break;
     }
   }
@@ -377,16 +387,41 @@ void App::take_news() {
   for (Notice& notice : notices) tell(std::move(notice));
   // Another clay is framed; one that was only saved under another name is not.
   if (ui_.clay.has_clay && framed_ != ui_.clay.number) {
-    frame_in_each(ui_.camera, ui_.show.is_stereo, ui_.clay.bounds_mm);
+    frame_in_each(ui_.camera, ui_.show.is_stereo, ui_.clay.all_bounds_mm);
     ui_.operation.drains.clear();
     take_over_path(framed_ > 0);
     framed_ = ui_.clay.number;
+    framed_pieces_ = ui_.clay.pieces_added;
   }
+  take_pieces();
   if (ui_.clay.has_clay && ui_.clay.file != last_file_) {
     note_recent();
     find_left_projects();
   }
   start_empty();
+}
+
+/// A piece that was just added may stand outside of the picture. What lies on one piece, or in its
+/// frame, is of no use to another.
+void App::take_pieces() {
+  if (!ui_.clay.pieces) return;
+  if (std::exchange(framed_pieces_, ui_.clay.pieces_added) != ui_.clay.pieces_added) {
+    frame_in_each(ui_.camera, ui_.show.is_stereo, ui_.clay.all_bounds_mm);
+  }
+  const PieceKey active = ui_.clay.pieces->active_piece().key;
+  if (std::exchange(active_piece_, active).value_or(active) != active) {
+    ui_.operation.drains.clear();
+    ui_.haptics.guidance.path_mm.clear();
+    ui_.pieces.refused_at.reset();
+    asked_.reset();
+  }
+  const std::optional<PieceDrag>& drag = ui_.pieces.drag;
+  const bool is_done =
+      drag && drag->sent_at && (*drag->sent_at != ui_.clay.changes || document_.is_idle());
+  if (is_done || (drag && drag->piece != active)) ui_.pieces.drag.reset();
+  const auto answer = document_.answer();
+  const bool is_over = ui_.is_pointer_over_clay_view && answer;
+  ui_.other_under_pointer = is_over ? answer->other : "";
 }
 
 /// A ball, where nothing could be opened at the start or what a killed window left is not wanted.
@@ -474,7 +509,10 @@ void App::ask_for_hover() {
 /// Notes whether the camera is another one than before, by any hand.
 void App::note_motion(double now_s) {
   const Lens lens = ui_.camera.lens({});
-  if (std::exchange(seen_lens_, lens) != lens) moved_s_ = now_s;
+  // A piece that is dragged moves as the camera does.
+  const Vec3 dragged = ui_.pieces.drag ? ui_.pieces.drag->placement.position_mm : Vec3{};
+  const bool is_new = std::exchange(seen_lens_, lens) != lens;
+  if (std::exchange(dragged_mm_, dragged) != dragged || is_new) moved_s_ = now_s;
   in_motion_ = now_s - moved_s_ < kMotionS;
 }
 
@@ -504,8 +542,10 @@ void App::tick_haptics(double now_s) {
   std::optional<SurfaceHit> hit;
   const auto answer = document_.answer();
   const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
-  if (leads && answer && answer->pick)
-    hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
+  const Placement at = shown_placement(ui_);
+  if (leads && answer && answer->pick) {
+    hit = SurfaceHit{unplaced(at, answer->pick->point_mm), turned_back(at, answer->pick->normal)};
+  }
   if (auto done = haptics_->tick(now_s, hit, gestures_.is_hand_pressing()); !done) {
     tell(notice_of(done.error()));
     ui_.haptics.device = DeviceChoice::mouse;
@@ -518,9 +558,11 @@ void App::tick_haptics(double now_s) {
 std::optional<FeltForce> App::felt() const {
   if (haptics_->is_running()) {
     if (ui_.haptics.scene != "clay") return std::nullopt;
+    // The device works in the frame of the piece.
     const haptics::RigSnapshot& seen = haptics_->rig().look();
-    return FeltForce{seen.tool_mm, haptics_->rig().options().tool.radii_mm.x,
-                     seen.placement.turned(seen.tick.force_n)};
+    const Placement at = shown_placement(ui_);
+    return FeltForce{placed(at, seen.tool_mm), haptics_->rig().options().tool.radii_mm.x,
+                     turned(at, seen.placement.turned(seen.tick.force_n))};
   }
   const auto answer = document_.answer();
   const bool is_shown =
@@ -538,6 +580,7 @@ void App::take_over_path(bool had_clay) {
 
 void App::draw_panels() {
   // In this order they lie over each other; dialogs come after the panels, messages last.
+  draw_outline(ui_);
   draw_menu(ui_, document_);
   draw_tools(ui_);
   draw_brush(ui_, document_);
@@ -545,11 +588,14 @@ void App::draw_panels() {
   draw_info(ui_);
   draw_history(ui_, document_);
   draw_print(ui_, document_);
+  draw_pieces(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);
+  draw_switch_hint(ui_);
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, document_);
   draw_operations(ui_, document_);
+  draw_import(ui_, document_);
   draw_export(ui_);
   files_.draw(ui_, document_);
   draw_save_question(ui_, document_);
@@ -634,6 +680,7 @@ Result<void> App::turn_table() {
   bare.is_moving = false;
   bare.rings.clear();
   bare.arrows.clear();
+  bare.handles.clear();
   bare.planes.clear();
   const fs::path file = file_of(number);
   auto saved = renderer_->draw(bare, 0, window_->width(), window_->height());

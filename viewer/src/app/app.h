@@ -52,11 +52,14 @@ class App {
   Result<bool> play(const ScriptStep& step);
   void take_events(const std::vector<InputEvent>& events);
   void take_news();
+  Result<void> take_blocks(PieceKey piece, const BlockNews& news);
+  void take_pieces();
   void follow_camera();
   bool is_view_told() const;
   void ask_for_hover();
   void draw_panels();
   Picture picture() const;
+  void add_pieces(Picture& picture) const;
   void add_rings(Picture& picture) const;
   void add_planes(Picture& picture) const;
   void add_cut(Picture& picture) const;
@@ -113,16 +116,19 @@ class App {
   std::pair<int, int> refused_size_;  ///< of the last picture, if the driver could not draw it
   bool is_at_rest_ = false;           ///< the last frame had nothing new to show
   Lens seen_lens_;                    ///< of the last frame
+  Vec3 dragged_mm_;                   ///< where the piece that is dragged was in it
   double moved_s_ = 0.0;              ///< when it was last another one
   bool in_motion_ = false;            ///< that was just now
   bool is_fluent_ = true;             ///< all of the clay is drawn in less time than a turn needs
   int frames_to_settle_ = 0;          ///< that follow each other without waiting for events
   double next_frame_s_ = 0.0;         ///< when one is due without an event
   std::int64_t framed_ = 0;           ///< ClayState::number of the clay that the camera has framed
-  bool has_started_ = false;          ///< the document thread has done the first requests
-  bool has_begun_ = false;            ///< with a clay, or there was none to begin with
-  std::filesystem::path last_file_;   ///< that the title names
-  std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
+  std::int64_t framed_pieces_ = 0;    ///< ClayState::pieces_added that the camera has framed
+  std::optional<PieceKey> active_piece_;  ///< of the last frame
+  bool has_started_ = false;              ///< the document thread has done the first requests
+  bool has_begun_ = false;                ///< with a clay, or there was none to begin with
+  std::filesystem::path last_file_;       ///< that the title names
+  std::vector<double> shown_inputs_s_;    ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;
   std::vector<double> latency_ms_;
   ViewReport report_;

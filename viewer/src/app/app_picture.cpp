@@ -5,6 +5,7 @@
 
 #include "app/app.h"
 #include "commands/command.h"
+#include "commands/piece_gestures.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -13,15 +14,31 @@ namespace {
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
 
+Vec3 linear_of(const Rgb8& color) {
+  Vec3 linear;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const double c = color[n] / 255.0;
+    linear[n] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  }
+  return linear;
+}
+
 }  // namespace
 
 Picture App::picture() const {
   Picture picture;
   const ShowState& show = ui_.show;
-  const Box3& content = ui_.clay.bounds_mm;
+  Box3 content = shown_bounds(ui_);
+  const auto gizmo = shown_gizmo(ui_, ui_.camera);
+  if (gizmo) {
+    content.include(bounds_of(*gizmo).min);
+    content.include(bounds_of(*gizmo).max);
+  }
   const std::vector<WindowPart> parts = parts_of(ui_.camera, show.is_stereo);
   picture.lens = parts.front().camera.lens(content);
   if (parts.size() > 1) picture.right_lens = parts.back().camera.lens(content);
+  add_pieces(picture);
+  if (gizmo) add_gizmo(*gizmo, picture.lens, ui_.pieces.handle, picture);
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;
@@ -29,11 +46,12 @@ Picture App::picture() const {
   add_rings(picture);
   add_force(picture);
   add_path(picture);
+  const Placement at = shown_placement(ui_);
   for (const Drain& drain : ui_.operation.drains) {
-    const Vec3 inward = normalized(drain.direction);
-    picture.rings.push_back({drain.point_mm, -1.0 * inward, drain.radius_mm, kDrainColor, true});
-    picture.arrows.push_back(
-        {drain.point_mm - 6.0 * drain.radius_mm * inward, drain.point_mm, kDrainColor});
+    const Vec3 point = placed(at, drain.point_mm);
+    const Vec3 inward = turned(at, normalized(drain.direction));
+    picture.rings.push_back({point, -1.0 * inward, drain.radius_mm, kDrainColor, true});
+    picture.arrows.push_back({point - 6.0 * drain.radius_mm * inward, point, kDrainColor});
   }
   if (show.has_planes) add_planes(picture);
   add_cut(picture);
@@ -41,15 +59,33 @@ Picture App::picture() const {
     picture.slice = slice_;
     if (ui_.chord) picture.lines.push_back({{ui_.chord->from_mm, ui_.chord->to_mm}, kRingColor});
   }
-  if (show.has_pins && ui_.report) {
+  const auto judged = show.has_pins ? judged_placement(ui_) : std::nullopt;
+  if (judged) {
     for (const mesh::MeshProblem& problem : ui_.report->verdict.problems) {
-      picture.pins.push_back({problem.at_mm, {1.0, 0.1, 0.1}});
+      picture.pins.push_back({placed(*judged, problem.at_mm), {1.0, 0.1, 0.1}});
     }
   }
   return picture;
 }
 
+/// All that are visible, each where it stands.
+void App::add_pieces(Picture& picture) const {
+  picture.pieces.clear();
+  if (!ui_.clay.pieces) return;
+  const PieceList& list = *ui_.clay.pieces;
+  for (std::size_t n = 0; n < list.pieces.size(); ++n) {
+    const PieceLook& look = list.pieces[n].look;
+    if (!look.is_visible) continue;
+    ShownPiece shown{list.pieces[n].key, look.placement};
+    shown.is_active = n == list.active;
+    if (shown.is_active) shown.placement = shown_placement(ui_);
+    if (look.color) shown.color = linear_of(*look.color);
+    picture.pieces.push_back(shown);
+  }
+}
+
 void App::add_rings(Picture& picture) const {
+  if (drag_form_of(ui_) != DragForm::brush) return;  // no size to show
   std::optional<SurfaceHit> hit = gestures_.tool_hit();
   double radius = gestures_.tool_radius_mm();
   if (!hit) {
@@ -58,8 +94,12 @@ void App::add_rings(Picture& picture) const {
     hit = SurfaceHit{answer->pick->point_mm, answer->pick->normal};
     radius = radius_on(ui_.brush, ui_.camera.pixel_mm_at(hit->point_mm));
   }
-  for (const SurfaceHit& image : images_of(*hit, ui_.brush)) {
-    picture.rings.push_back({image.point_mm, image.normal, radius, kRingColor, false});
+  // Symmetry is about the planes and axes of the piece itself.
+  const Placement at = shown_placement(ui_);
+  const SurfaceHit own{unplaced(at, hit->point_mm), turned_back(at, hit->normal)};
+  for (const SurfaceHit& image : images_of(own, ui_.brush)) {
+    picture.rings.push_back(
+        {placed(at, image.point_mm), turned(at, image.normal), radius, kRingColor, false});
   }
   // A smaller ring shows the strength.
   picture.rings.push_back(
@@ -71,11 +111,12 @@ void App::add_planes(Picture& picture) const {
   const Box3& box = ui_.clay.bounds_mm;
   const double half = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
   const Mirror& mirror = ui_.brush.mirror;
+  const Placement at = shown_placement(ui_);
   const auto add = [&](bool is_on, const Vec3& normal, const Vec3& color) {
     if (!is_on) return;
     const Vec3 middle = box.center() - dot(box.center(), normal) * normal;
     // Filled it would veil half of the piece.
-    picture.planes.push_back({middle, normal, half, color, false});
+    picture.planes.push_back({placed(at, middle), turned(at, normal), half, color, false});
   };
   add(mirror.x, {1.0, 0.0, 0.0}, {0.9, 0.3, 0.3});
   add(mirror.y, {0.0, 1.0, 0.0}, {0.3, 0.8, 0.3});
@@ -92,6 +133,9 @@ void App::add_cut(Picture& picture) const {
   plane.normal[axis] = 1.0;
   plane.point_mm = box.center();
   plane.point_mm[axis] = ui_.operation.cut_at_mm;
+  const Placement at = shown_placement(ui_);
+  plane.normal = turned(at, plane.normal);
+  plane.point_mm = placed(at, plane.point_mm);
   plane.half_side_mm = 0.6 * std::max({box.size().x, box.size().y, box.size().z});
   plane.color = kRingColor;
   picture.planes.push_back(plane);
@@ -105,7 +149,7 @@ void App::cut_slice() {
     return;
   }
   if (gestures_.is_stroke_open()) return;
-  const Box3& box = ui_.clay.bounds_mm;
+  const Box3& box = ui_.clay.all_bounds_mm;
   const auto axis = static_cast<std::size_t>(ui_.show.slice_axis);
   const std::size_t across = axis == 0 ? 1 : 0;
   const std::size_t down = axis == 2 ? 1 : 2;
@@ -151,7 +195,8 @@ void App::add_force(Picture& picture) const {
 /// The path that guides the hand, or the one that is being drawn.
 void App::add_path(Picture& picture) const {
   const std::vector<Vec3>& drawn = ui_.drawn_path_mm;
-  const std::vector<Vec3>& path = drawn.empty() ? ui_.haptics.guidance.path_mm : drawn;
+  std::vector<Vec3> path = drawn.empty() ? ui_.haptics.guidance.path_mm : drawn;
+  for (Vec3& point : path) point = placed(shown_placement(ui_), point);
   if (path.size() > 1) picture.lines.push_back({path});
   if (path.size() == 1) picture.pins.push_back({path.front(), LineMark().color});
 }

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "commands/piece_edits.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -26,6 +27,18 @@ constexpr CommandInfo kCommands[] = {
     {Command::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
     {Command::history, "Edit", "History", "Ctrl+H"},
     {Command::operations, "Edit", "Whole clay...", "Ctrl+W"},
+    {Command::pieces, "Piece", "Pieces", "Ctrl+P"},
+    {Command::piece_switch, "Piece", "Sculpt the one here", "Alt+Q"},
+    {Command::piece_gizmo, "Piece", "Move and turn", "Shift+G"},
+    {Command::piece_ball, "Piece", "Add a ball", "Shift+A"},
+    {Command::piece_import, "Piece", "Add a mesh...", "Ctrl+Alt+I"},
+    {Command::piece_duplicate, "Piece", "Duplicate", "Shift+D"},
+    {Command::piece_remove, "Piece", "Remove", "Delete"},
+    {Command::piece_bed, "Piece", "Drop to bed", "End"},
+    {Command::piece_middle, "Piece", "Centre", "Ctrl+End"},
+    {Command::piece_unite, "Piece", "Merge", "Ctrl+J"},
+    {Command::piece_subtract, "Piece", "Subtract", "Ctrl+Shift+J"},
+    {Command::piece_intersect, "Piece", "Intersect", "Ctrl+Alt+J"},
     {Command::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
     {Command::mask_clear, "Mask", "Clear", "Alt+M"},
     {Command::mask_blur, "Mask", "Blur", "Alt+B"},
@@ -111,7 +124,7 @@ bool perform_on_view(Command command, UiState& ui) {
       look(ui, {0.0, 0.0, -1.0}, {0.0, -1.0, 0.0});
       return true;
     case Command::view_frame:
-      frame_in_each(ui.camera, ui.show.is_stereo, ui.clay.bounds_mm);
+      frame_in_each(ui.camera, ui.show.is_stereo, ui.clay.all_bounds_mm);
       return true;
     case Command::view_parallel:
       ui.camera.set_parallel(!ui.camera.is_parallel());
@@ -180,6 +193,78 @@ bool perform_on_brush(Command command, UiState& ui) {
   }
 }
 
+/// What is done to pieces, or shown of them.
+bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
+  switch (command) {
+    case Command::pieces:
+      ui.panels.has_pieces = !ui.panels.has_pieces;
+      return true;
+    case Command::piece_switch:
+      document.send(
+          SelectPieceAt{part_at(ui.camera, ui.show.is_stereo, ui.pointer).ray_at(ui.pointer)});
+      return true;
+    case Command::piece_gizmo:
+      ui.pieces.has_gizmo = !ui.pieces.has_gizmo;
+      ui.pieces.handle.reset();
+      return true;
+    case Command::piece_ball:
+      document.send(AddBallPiece{});
+      return true;
+    case Command::piece_import:
+      ui.file_wish = FileWish::import_piece;
+      return true;
+    case Command::piece_duplicate:
+      document.send(DuplicatePiece{});
+      // It lies in its original, to be moved out of it.
+      ui.pieces.has_gizmo = true;
+      return true;
+    case Command::piece_remove:
+      edit_piece(RemovePiece{ui.clay.pieces->active_piece().look.name}, document);
+      return true;
+    case Command::piece_bed:
+      document.send(StandPiece{StandPiece::Where::bed});
+      return true;
+    case Command::piece_middle:
+      document.send(StandPiece{StandPiece::Where::middle});
+      return true;
+    case Command::piece_unite:
+      merge_pieces(CombineKind::unite, ui, document);
+      return true;
+    case Command::piece_subtract:
+      merge_pieces(CombineKind::subtract, ui, document);
+      return true;
+    case Command::piece_intersect:
+      merge_pieces(CombineKind::intersect, ui, document);
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// Nothing for a command of another menu.
+std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexcept {
+  const bool has_pieces = ui.clay.has_clay && ui.clay.pieces;
+  switch (command) {
+    case Command::pieces:
+    case Command::piece_gizmo:
+      return true;
+    case Command::piece_switch:
+    case Command::piece_ball:
+    case Command::piece_import:
+    case Command::piece_duplicate:
+    case Command::piece_bed:
+    case Command::piece_middle:
+      return has_pieces;
+    case Command::piece_remove:
+    case Command::piece_unite:
+    case Command::piece_subtract:
+    case Command::piece_intersect:
+      return has_pieces && ui.clay.pieces->pieces.size() > 1;
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::span<const CommandInfo> command_infos() noexcept { return kCommands; }
@@ -224,6 +309,7 @@ bool goes_on_while_held(Command command) noexcept {
 }
 
 bool is_possible(Command command, const UiState& ui) noexcept {
+  if (const auto piece = is_piece_possible(command, ui)) return *piece;
   switch (command) {
     case Command::undo:
       return ui.clay.undo_depth > 0 || ui.clay.is_stroke_open;
@@ -252,6 +338,7 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
   // An undo that is not done yet makes a redo possible: the document thread knows.
   if (!is_possible(command, ui) && command != Command::redo) return;
   if (perform_on_view(command, ui) || perform_on_brush(command, ui)) return;
+  if (perform_on_piece(command, ui, document)) return;
   switch (command) {
     case Command::new_clay:
       ui.panels.is_new_open = true;
@@ -318,6 +405,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
   if (ui.clay.left) return Dialog::recover;
   if (ui.asks_to_save) return Dialog::save_first;
   if (ui.file_wish != FileWish::none) return Dialog::file;
+  if (ui.panels.is_import_open) return Dialog::import_mesh;
   if (ui.panels.is_export_open) return Dialog::export_mesh;
   if (ui.panels.is_operations_open) return Dialog::operations;
   return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
@@ -328,6 +416,7 @@ void close_dialogs(UiState& ui) noexcept {
   ui.panels.is_new_open = false;
   ui.panels.is_operations_open = false;
   ui.panels.is_export_open = false;
+  ui.panels.is_import_open = false;
   ui.panels.has_help = false;
   ui.asks_to_save = false;
   ui.file_wish = FileWish::none;
@@ -360,6 +449,10 @@ void go_on_after_saving(bool saves, UiState& ui, DocumentThread& document) {
     case AfterSaving::make_new:
       document.send(NewClay{ui.waiting_start, saves});
       break;
+    case AfterSaving::import_mesh:
+      ui.waiting_import.saves_former = saves;
+      document.send(ui.waiting_import);
+      break;
     case AfterSaving::open_file:
       document.send(OpenFile{ui.waiting_file, saves});
       break;
@@ -372,6 +465,23 @@ void remember_folder_of(const std::filesystem::path& file, UiState& ui) {
   if (std::filesystem::is_directory(file.parent_path(), error)) ui.folder = file.parent_path();
 }
 
+/// Opens the dialog, which has something to ask once the mesh was looked at.
+void ask_about_mesh(const std::filesystem::path& file, UiState& ui, DocumentThread& document) {
+  const std::int64_t number = ui.import.number + 1;
+  ui.import = {};
+  ui.import.file = file;
+  ui.import.number = number;
+  ui.panels.is_import_open = true;
+  document.send(LookAtMesh{file, number});
+}
+
+void import_as_chosen(UiState& ui, DocumentThread& document) {
+  assert(ui.import.is_filled && ui.clay.offer);
+  ui.panels.is_import_open = false;
+  ui.waiting_import = request_of(ui.import, *ui.clay.offer);
+  leave_clay(AfterSaving::import_mesh, ui, document);
+}
+
 void open_file(const std::filesystem::path& file, UiState& ui, DocumentThread& document) {
   if (extension_of(file) == ".csv") {
     ui.haptics.replay_file = file;
@@ -379,8 +489,12 @@ void open_file(const std::filesystem::path& file, UiState& ui, DocumentThread& d
     ui.panels.has_haptics = true;
     return;
   }
-  ui.waiting_file = file;
   remember_folder_of(file, ui);
+  if (extension_of(file) != ".vdb") {
+    ask_about_mesh(file, ui, document);
+    return;
+  }
+  ui.waiting_file = file;
   leave_clay(AfterSaving::open_file, ui, document);
 }
 

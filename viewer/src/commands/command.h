@@ -28,6 +28,18 @@ enum class Command {
   mask_blur,
   mask_fill,
   operations,
+  pieces,
+  piece_switch,
+  piece_gizmo,
+  piece_ball,
+  piece_import,
+  piece_duplicate,
+  piece_remove,
+  piece_bed,
+  piece_middle,
+  piece_unite,
+  piece_subtract,
+  piece_intersect,
   symmetry_x,
   symmetry_y,
   symmetry_z,
@@ -94,7 +106,11 @@ void go_on_after_saving(bool saves, UiState& ui, DocumentThread& document);
 /// Makes the file's folder the one that the next dialog begins in, if it exists.
 void remember_folder_of(const std::filesystem::path& file, UiState& ui);
 
-/// Opens a project, imports a mesh or replays a recording, by the file's extension.
+/// Asks how a mesh shall be imported; and does it as it was answered.
+void ask_about_mesh(const std::filesystem::path& file, UiState& ui, DocumentThread& document);
+void import_as_chosen(UiState& ui, DocumentThread& document);
+
+/// Opens a project, asks about a mesh or replays a recording, by the file's extension.
 void open_file(const std::filesystem::path& file, UiState& ui, DocumentThread& document);
 
 }  // namespace argil::viewer

@@ -50,7 +50,8 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       release(event);
       break;
     case InputEvent::Kind::scroll:
-      if (!is_taken && !is_asked) {
+      // A handle that is held stays where the camera saw it.
+      if (!is_taken && !is_asked && drag_ != Drag::piece) {
         ui_.camera.zoom(std::pow(kZoomStep, event.steps),
                         between_eyes(ui_.camera, ui_.show.is_stereo, pixel_of(event)));
       }
@@ -77,8 +78,9 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     return;
   }
   if (event.key == kKeyEscape) {
-    const bool ends = ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain ||
-                      ui_.draws_path || ui_.turntable_left > 0;
+    const bool ends = pieces_.cancel() || leave_outline() || ui_.brush_drag ||
+                      drag_ == Drag::stroke || ui_.places_drain || ui_.draws_path ||
+                      ui_.turntable_left > 0;
     ui_.places_drain = false;
     leave_path();
     ui_.turntable_left = 0;
@@ -86,9 +88,9 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     ui_.brush_drag.reset();
     if (drag_ == Drag::stroke) {
       stroke_.reset();
-      drag_ = Drag::none;
       document_.send(CancelStroke{});
     }
+    if (drag_ == Drag::stroke || drag_ == Drag::piece) drag_ = Drag::none;
     if (ends || std::exchange(ui_.asks_to_drop, false)) return;
     close_dialogs(ui_);
     if (ui_.clay.left) document_.send(ForgetQuestion{});
@@ -96,7 +98,7 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
   }
   if (is_asked) return;
   // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
-  if (drag_ == Drag::stroke) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
   if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
     ui_.is_clutched = true;
     return;
@@ -128,18 +130,32 @@ void Gestures::press(const InputEvent& event) {
     begin_path(event);
     return;
   }
+  drag_ = drag_of(event);
+}
+
+/// What a press begins.
+Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   const Modifiers& held = event.modifiers;
   // As in Blender; Alt stands in for the right button on trackpads and pens.
   if (event.button == MouseButton::middle || (held.alt && held.shift) ||
       (event.button == MouseButton::right && held.shift)) {
-    drag_ = Drag::pan;
-  } else if (event.button == MouseButton::left && !held.alt && ui_.is_hand_led) {
-    drag_ = Drag::hand;
-  } else if (event.button == MouseButton::right || held.alt || !begin_stroke(event)) {
-    drag_ = Drag::orbit;
-  } else {
-    drag_ = Drag::stroke;
+    return Drag::pan;
   }
+  if (event.button == MouseButton::right || held.alt) return Drag::orbit;
+  if (pieces_.press(event)) return Drag::piece;
+  if (ui_.is_hand_led) return Drag::hand;
+  if (begin_outline(event)) return Drag::outline;
+  switch (begin_stroke(event)) {
+    case Met::stroke:
+      return Drag::stroke;
+    case Met::other_piece:
+      // Neither a stroke, which would surprise, nor a turn of the view.
+      pieces_.press_on_other(event);
+      return Drag::none;
+    case Met::nothing:
+      break;
+  }
+  return Drag::orbit;
 }
 
 void Gestures::place_drain(const InputEvent& event) {
@@ -147,7 +163,9 @@ void Gestures::place_drain(const InputEvent& event) {
   const double radius = 0.5 * ui_.operation.drain_mm;
   const auto hit = probe_(pixel_of(event)).at(pixel_of(event), radius);
   if (!hit) return;
-  ui_.operation.drains.push_back({hit->point_mm, -1.0 * hit->normal, radius});
+  const Placement at = shown_placement(ui_);
+  ui_.operation.drains.push_back(
+      {unplaced(at, hit->point_mm), turned_back(at, -1.0 * hit->normal), radius});
   ui_.places_drain = false;
 }
 
@@ -167,9 +185,10 @@ void Gestures::extend_path(const InputEvent& event) {
   assert(path_probe_);
   const auto hit = path_probe_->at(pixel_of(event), 0.0);
   if (!hit) return;
+  const Vec3 point = unplaced(shown_placement(ui_), hit->point_mm);
   const bool is_near =
-      !ui_.drawn_path_mm.empty() && length(hit->point_mm - ui_.drawn_path_mm.back()) < kLeastStepMm;
-  if (!is_near) ui_.drawn_path_mm.push_back(hit->point_mm);
+      !ui_.drawn_path_mm.empty() && length(point - ui_.drawn_path_mm.back()) < kLeastStepMm;
+  if (!is_near) ui_.drawn_path_mm.push_back(point);
 }
 
 /// A drag beside the clay is none, and another may follow.
@@ -190,6 +209,42 @@ void Gestures::leave_path() {
   ui_.draws_path = false;
 }
 
+// ---- outlines of masks and trims ---------------------------------------------------------------
+
+/// Whether the drag draws one: as chosen for the tool, or with Ctrl and Shift a lasso that masks,
+/// as in Blender.
+bool Gestures::begin_outline(const InputEvent& event) {
+  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
+  const Modifiers& held = event.modifiers;
+  OutlineDrag drag;
+  if (!(held.ctrl && held.shift)) {
+    if (held.shift) return false;  // smooths
+    drag.form = drag_form_of(ui_);
+    drag.is_trim = ui_.brush.action == Action::trim;
+  }
+  if (drag.form == DragForm::brush) return false;
+  drag.is_inverse = !held.shift && held.ctrl != ui_.brush.is_inverted;
+  drag.part = part_at(ui_.camera, ui_.show.is_stereo, pixel_of(event));
+  drag.piece = shown_placement(ui_);
+  drag.points = {pixel_of(event)};
+  ui_.outline = std::move(drag);
+  return true;
+}
+
+void Gestures::end_outline() {
+  assert(ui_.outline);
+  if (auto step = step_of(*ui_.outline, ui_.clay.bounds_mm, ui_.outlines.front_only)) {
+    document_.send(DoStep{std::move(*step)});
+  }
+  ui_.outline.reset();
+}
+
+/// True where one was being drawn.
+bool Gestures::leave_outline() {
+  if (drag_ == Drag::outline) drag_ = Drag::none;
+  return std::exchange(ui_.outline, std::nullopt).has_value();
+}
+
 void Gestures::move(const InputEvent& event) {
   const double dx = event.x - ui_.pointer.x;
   const double dy = event.y - ui_.pointer.y;
@@ -199,12 +254,16 @@ void Gestures::move(const InputEvent& event) {
   if (drag_ == Drag::pan) ui_.camera.pan(dx, dy);
   if (drag_ == Drag::stroke) extend_stroke(event);
   if (drag_ == Drag::path) extend_path(event);
+  if (drag_ == Drag::piece || drag_ == Drag::none) pieces_.move(event);
+  if (drag_ == Drag::outline) extend(*ui_.outline, pixel_of(event));
 }
 
 void Gestures::release(const InputEvent& event) {
   if (drag_ == Drag::none || event.button != button_) return;
   if (drag_ == Drag::stroke) end_stroke();
   if (drag_ == Drag::path) end_path();
+  if (drag_ == Drag::piece) pieces_.release();
+  if (drag_ == Drag::outline) end_outline();
   drag_ = Drag::none;
 }
 
@@ -224,7 +283,7 @@ void Gestures::drag_brush(const InputEvent& event) {
 
 /// The piece follows the hand. A stroke reads the picture that it began in.
 void Gestures::puck(const InputEvent& event) {
-  if (drag_ == Drag::stroke) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
   Camera& camera = ui_.camera;
   const double pixels = kPuckWidths * camera.width() * event.puck_s;
   camera.pan(pixels * event.puck_shift.x, -pixels * event.puck_shift.y);
@@ -235,21 +294,22 @@ void Gestures::puck(const InputEvent& event) {
 
 // ---- strokes -----------------------------------------------------------------------------------
 
-bool Gestures::begin_stroke(const InputEvent& event) {
-  if (!ui_.clay.has_clay || ui_.task.is_running) return false;
+Gestures::Met Gestures::begin_stroke(const InputEvent& event) {
+  if (!ui_.clay.has_clay || ui_.task.is_running) return Met::nothing;
   assert(!stroke_);
   SurfaceProbe probe = probe_(pixel_of(event));
+  if (probe.is_other_at(pixel_of(event))) return Met::other_piece;
   const Brush brush = brush_with(ui_.brush, event.modifiers);
   // Twice: how large the brush is on the screen depends on how far away the surface is.
   const auto first = probe.at(pixel_of(event), 0.0);
-  if (!first) return false;
+  if (!first) return Met::nothing;
   const double radius = radius_on(brush, ui_.camera.pixel_mm_at(first->point_mm));
   const auto hit = probe.at(pixel_of(event), radius);
   stroke_.emplace(OpenStroke{
       brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false, false});
   document_.send(BeginStroke{tool_of(brush, radius), style_of(brush), brush.is_stamp});
   extend_stroke(event);
-  return true;
+  return Met::stroke;
 }
 
 /// What is dragged moves in the plane of the picture; every other tool stays on the surface as the

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "commands/piece_gestures.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
 #include "input/input_event.h"
@@ -25,7 +26,7 @@ class Gestures {
 
   /// `probe` is called when a stroke begins.
   Gestures(UiState& ui, DocumentThread& document, Probe probe)
-      : ui_(ui), document_(document), probe_(std::move(probe)) {}
+      : ui_(ui), document_(document), probe_(std::move(probe)), pieces_(ui, document) {}
 
   /// `is_taken`: a panel has taken the event, so that it begins nothing here.
   void on(const InputEvent& event, bool is_taken);
@@ -43,7 +44,9 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan, path };
+  enum class Drag { none, stroke, hand, orbit, pan, path, piece, outline };
+  /// What a press of the left button meets.
+  enum class Met { stroke, other_piece, nothing };
   struct OpenStroke {
     Brush brush;
     double radius_mm = 1.0;
@@ -67,7 +70,11 @@ class Gestures {
   void extend_path(const InputEvent& event);
   void end_path();
   void leave_path();
-  bool begin_stroke(const InputEvent& event);
+  bool begin_outline(const InputEvent& event);
+  void end_outline();
+  bool leave_outline();
+  Met begin_stroke(const InputEvent& event);
+  Drag drag_of(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
   std::optional<SurfaceHit> hit_of(const OpenStroke& stroke, const InputEvent& event) const;
@@ -78,6 +85,7 @@ class Gestures {
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;
+  PieceGestures pieces_;
   std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun
 };
 

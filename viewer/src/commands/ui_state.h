@@ -17,9 +17,12 @@
 #include "argil/haptics/simulation/hand_model.h"
 
 #include "commands/brush.h"
+#include "commands/import_choice.h"
+#include "commands/outline.h"
 #include "document/document_thread.h"
 #include "document/settings.h"
 #include "picture/camera.h"
+#include "picture/gizmo.h"
 #include "picture/renderer.h"
 #include "picture/slice_chord.h"
 
@@ -47,6 +50,7 @@ struct PanelState {
   float view_top = 1e4F;  ///< pixels: where the view's panel began in the last frame
   bool has_haptics = false;
   bool has_print = false;
+  bool has_pieces = false;
   bool has_info = false;
   bool has_history = false;
   bool has_messages = false;
@@ -54,16 +58,37 @@ struct PanelState {
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
+  bool is_import_open = false;
 };
 
 /// Dialogs, which must be answered before anything else goes on.
-enum class Dialog { none, recover, save_first, file, export_mesh, operations, new_clay };
+enum class Dialog {
+  none,
+  recover,
+  save_first,
+  file,
+  import_mesh,
+  export_mesh,
+  operations,
+  new_clay
+};
 
 /// What a file is asked for.
-enum class FileWish { none, open, save_as, export_mesh, import_mesh, stamp, alpha, firmware, path };
+enum class FileWish {
+  none,
+  open,
+  save_as,
+  export_mesh,
+  import_mesh,
+  import_piece,
+  stamp,
+  alpha,
+  firmware,
+  path
+};
 
 /// What the window does once the question "Save first?" is answered.
-enum class AfterSaving { nothing, quit, make_new, open_file };
+enum class AfterSaving { nothing, quit, make_new, open_file, import_mesh };
 
 enum class DeviceChoice { mouse, sim, falcon, replay };
 
@@ -85,7 +110,8 @@ struct HapticChoice {
   std::map<std::string, double> scene_settings;  ///< that are not usual (SceneParameter)
   double scale = 0.0;     ///< mm of clay for each of the device; 0: the clay fills its reach
   double press_mm = 2.0;  ///< how deep the simulated hand aims under the pointer
-  haptics::GuidanceOptions guidance;  ///< its path on the clay; its scale is the placement's
+  haptics::GuidanceOptions
+      guidance;  ///< its path on the clay, in the piece's frame; its scale is the placement's
   friend bool operator==(const HapticChoice& a, const HapticChoice& b) {
     const auto numbers = [](const HapticChoice& c) {
       return std::pair{std::array{c.stiffness_n_per_m, c.scale, c.press_mm, c.mix_ramp_s},
@@ -104,7 +130,7 @@ struct OperationChoice {
   double offset_mm = 0.5;
   double wall_mm = 2.0;
   double drain_mm = 4.0;      ///< across
-  std::vector<Drain> drains;  ///< of the next hollow
+  std::vector<Drain> drains;  ///< of the next hollow, in the active piece's frame
   int cut_axis = 2;
   double cut_at_mm = 0.0;
   bool keeps_front = true;
@@ -117,6 +143,34 @@ struct BrushDrag {
   Brush before;
   double start_x = 0.0;
   Camera::Pixel at;  ///< where the ring stays
+};
+
+/// The active piece while it is dragged, shown so until the document has it there.
+struct PieceDrag {
+  PieceKey piece = 0;
+  Placement placement = {};
+  /// ClayState::changes when the document was told; nothing while it is held.
+  std::optional<std::int64_t> sent_at = std::nullopt;
+};
+
+/// What the window remembers of pieces.
+struct PieceChoice {
+  bool has_gizmo = false;
+  std::optional<GizmoPart> handle;  ///< under the pointer, or held
+  std::optional<PieceDrag> drag;
+  std::string other;  ///< to merge with
+  bool keeps_other = false;
+  std::optional<PieceKey> listed;   ///< the active one, to which the list was scrolled
+  std::optional<PieceKey> renamed;  ///< whose name is being typed
+  std::string new_name;
+  std::string typed_color;
+  // Of the active piece as they are being typed.
+  Vec3 position_mm;
+  Vec3 turns_deg;
+  Quat turned;  ///< what those turns are
+  bool is_typing = false;
+  /// Where a press was on another piece, while the pointer is near: it is said how to sculpt that.
+  std::optional<Camera::Pixel> refused_at;
 };
 
 /// Pictures of a turntable: three seconds of a film.
@@ -141,6 +195,8 @@ struct UiState {
   std::optional<Chord> chord;  ///< through the slice's material, under the pointer
   bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
+  OutlineChoice outlines;
+  std::optional<OutlineDrag> outline;  ///< while it is drawn
 
   FileWish file_wish = FileWish::none;
   AfterSaving after_saving = AfterSaving::nothing;
@@ -150,8 +206,11 @@ struct UiState {
   std::filesystem::path waiting_file;  ///< of AfterSaving::open_file
   io::StartShape waiting_start{
       io::StartShape::Kind::ball, {25.0, 50.0, 50.0}, {}};  ///< of make_new
+  ImportChoice import;                                      ///< of the dialog about a mesh
+  ImportMesh waiting_import;                                ///< of AfterSaving::import_mesh
   HapticChoice haptics;
   OperationChoice operation;
+  PieceChoice pieces;
   io::ExportOptions export_options;
   mesh::Printer printer;
   std::vector<mesh::Printer> printers;  ///< that can be chosen
@@ -172,6 +231,7 @@ struct UiState {
   bool draws_path = false;            ///< the next drag over the clay is a path of guidance
   std::vector<Vec3> drawn_path_mm;    ///< so far, while it is dragged
   bool is_clutched = false;           ///< the hand moves without the tool
+  std::string other_under_pointer;    ///< the name of the piece that the pointer is over; "" none
   int turntable_left = 0;             ///< pictures to come, of kTurntableFrames once around
 
   // What the document thread reports, copied once a frame.
@@ -179,5 +239,11 @@ struct UiState {
   Task task;
   std::shared_ptr<const PrintReport> report;
 };
+
+/// How a drag over the clay is taken: only masks and trims may be drawn by an outline.
+inline DragForm drag_form_of(const UiState& ui) noexcept {
+  if (ui.brush.action == Action::mask) return ui.outlines.mask;
+  return ui.brush.action == Action::trim ? ui.outlines.trim : DragForm::brush;
+}
 
 }  // namespace argil::viewer

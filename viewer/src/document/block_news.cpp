@@ -51,6 +51,9 @@ BlockMesh BlockFeed::copy_of(const Clay& clay, const BlockId& id, const DisplayB
 }
 
 void BlockFeed::add_masked(const Clay& clay, BlockNews& news) {
+  // Where none was and none is, nothing can differ.
+  const bool has_mask = clay.has_mask();
+  if (!std::exchange(had_mask_, has_mask) && !has_mask) is_mask_unknown_ = false;
   if (!is_mask_unknown_ && masked_mm_.empty()) return;
   // A mask moves no surface: the blocks that it may have changed are found by their boxes.
   for (const BlockId& id : surface_.blocks()) {
@@ -81,6 +84,7 @@ Result<BlockNews> BlockFeed::update(const Clay& clay, const std::optional<Displa
     for (const BlockId& id : surface_.blocks()) news.changed.emplace(id, copy_of(clay, id));
     masked_mm_.clear();
     previewed_.clear();
+    had_mask_ = clay.has_mask();
     is_mask_unknown_ = is_fresh_ = had_preview_ = false;
     return news;
   }

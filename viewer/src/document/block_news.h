@@ -72,6 +72,7 @@ class BlockFeed {
   SurfacePicker picker_;
   std::vector<Box3> masked_mm_;
   bool is_mask_unknown_ = false;
+  bool had_mask_ = false;  ///< at the last update
   bool is_fresh_ = true;
   std::set<BlockId> previewed_;  ///< blocks that a preview changed, or that are there by it
   bool had_preview_ = false;

@@ -12,12 +12,15 @@
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/display_surface.h"
+#include "argil/engine/sculpture.h"
 #include "argil/engine/tool_mesh.h"
 #include "argil/io/export.h"
 #include "argil/io/session.h"
 #include "argil/mesh/check.h"
 
+#include "document/mesh_offer.h"
 #include "document/request.h"
+#include "picture/renderer.h"
 
 namespace argil::viewer {
 
@@ -58,7 +61,21 @@ struct Alpha {
   std::shared_ptr<const AlphaImage> image;
 };
 
-/// The clay and its document in numbers.
+/// A piece in the list.
+struct PieceState {
+  PieceKey key = 0;
+  PieceLook look;
+  Box3 bounds_mm;  ///< in its own frame, as its last step left it
+};
+
+/// The pieces of a sculpture.
+struct PieceList {
+  std::vector<PieceState> pieces;
+  std::size_t active = 0;  ///< of these
+  const PieceState& active_piece() const { return pieces[active]; }
+};
+
+/// The clay and its document in numbers. What is of one clay is of the active piece.
 struct ClayState {
   bool has_clay = false;
   std::int64_t number = 0;     ///< differs from clay to clay; saving under another name keeps it
@@ -66,10 +83,13 @@ struct ClayState {
   bool is_untitled = false;    ///< kept in the home folder until it is saved
   bool is_changed = false;     ///< since it was saved
   int undo_depth = 0;
-  std::shared_ptr<const StepNames> steps;  ///< null without clay
+  std::shared_ptr<const StepNames> steps;   ///< null without clay
+  std::shared_ptr<const PieceList> pieces;  ///< likewise
   bool has_mask = false;
   bool is_stroke_open = false;
-  Box3 bounds_mm;
+  Box3 bounds_mm;                 ///< in its own frame
+  Box3 all_bounds_mm;             ///< of all visible pieces where they stand
+  std::int64_t pieces_added = 0;  ///< so far, as the window shall see at once
   double voxel_mm = 0.0;
   std::vector<LevelStats> levels;
   ClayUse use;
@@ -79,8 +99,9 @@ struct ClayState {
   std::int64_t changes = 0;  ///< so far: strokes, steps, another clay
   double last_dab_ms = 0.0;  ///< wall time, its surface included
   std::optional<LeftQuestion> left;
-  std::shared_ptr<const Stamp> stamp;  ///< the last one that was loaded; null: none
-  std::shared_ptr<const Alpha> alpha;  ///< likewise
+  std::shared_ptr<const Stamp> stamp;      ///< the last one that was loaded; null: none
+  std::shared_ptr<const Alpha> alpha;      ///< likewise
+  std::shared_ptr<const MeshOffer> offer;  ///< the last mesh that was looked at; null: none
 };
 
 /// The verdict on the last CheckPrint or ExportMesh.
@@ -89,6 +110,7 @@ struct PrintReport {
   std::optional<io::ExportReport> exported;
   std::string printer;
   std::int64_t changes = 0;  ///< ClayState::changes when it was judged
+  PieceKey piece = 0;        ///< in whose frame the problems lie
 };
 
 /// Long work that is under way.

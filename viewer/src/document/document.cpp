@@ -77,6 +77,60 @@ std::vector<std::string> told(const mesh::CloseReport& closing, const ImportRepo
   return notes;
 }
 
+/// What a mesh became.
+struct Imported {
+  Sculpture sculpture;
+  std::vector<std::string> notes;
+};
+
+double voxel_for(const MeshImport& how, double largest_side_mm) {
+  return how.voxel_mm > 0.0 ? how.voxel_mm : largest_side_mm / io::kUsualResolution;
+}
+
+/// Guesses about a frame are told where nobody has chosen one.
+void add_doubts(const fs::path& mesh, io::FrameReport frame, const MeshImport& how,
+                std::vector<std::string>& notes) {
+  if (how.preparation.size_mm > 0.0) frame.unit_looks_like.reset();
+  for (std::string& doubt : io::frame_doubts(mesh, frame)) notes.push_back(std::move(doubt));
+}
+
+Result<Imported> clay_of(const fs::path& mesh, const MeshImport& how, const Progress& progress) {
+  const auto prepared = io::read_prepared_mesh(mesh, how.preparation);
+  if (!prepared) return prepared.error();
+  ClayOptions options;
+  options.voxel_mm = voxel_for(how, prepared.value().largest_side_mm);
+  auto imported = import_mesh(prepared.value().mesh, options, progress);
+  if (!imported) return imported.error();
+  auto notes = told(prepared.value().closing, imported.value().report);
+  add_doubts(mesh, prepared.value().frame, how, notes);
+  return Imported{Sculpture(std::move(imported.value().clay)), std::move(notes)};
+}
+
+Result<Imported> pieces_of(const fs::path& mesh, const MeshImport& how, const Progress& progress) {
+  const auto prepared = io::read_prepared_parts(mesh, how.preparation);
+  if (!prepared) return prepared.error();
+  const std::vector<std::string> names = io::piece_names(prepared.value().names);
+  ClayOptions options;
+  options.voxel_mm = voxel_for(how, prepared.value().largest_side_mm);
+  std::vector<Sculpture::ReadyPiece> pieces;
+  std::vector<std::string> notes;
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const io::PreparedMesh& part = prepared.value().parts[n];
+    auto imported = import_mesh(part.mesh, options, progress);
+    if (!imported) {
+      return Error{imported.error().kind, in_quotes(names[n]) + ": " + imported.error().message};
+    }
+    for (const std::string& note : told(part.closing, imported.value().report)) {
+      notes.push_back(in_quotes(names[n]) + ": " + note);
+    }
+    pieces.push_back({{.name = names[n]}, std::move(imported.value().clay)});
+  }
+  add_doubts(mesh, prepared.value().frame, how, notes);
+  auto sculpture = Sculpture::of(std::move(pieces), 0);
+  if (!sculpture) return sculpture.error();
+  return Imported{std::move(sculpture).value(), std::move(notes)};
+}
+
 }  // namespace
 
 fs::path usual_home() {
@@ -164,11 +218,11 @@ Result<void> Document::take(io::Session session, fs::path file, bool is_untitled
   return {};
 }
 
-Result<void> Document::start_untitled(Clay clay, bool saves_former) {
+Result<void> Document::start_untitled(Sculpture sculpture, bool saves_former) {
   const fs::path folder = home_ / "unsaved";
   if (auto made = make_folder(folder); !made) return made;
   const fs::path file = free_untitled(folder);
-  auto session = io::Session::create(file, std::move(clay));
+  auto session = io::Session::create(file, std::move(sculpture));
   if (!session) return session.error();
   return take(std::move(session).value(), file, true, saves_former);
 }
@@ -177,7 +231,7 @@ Result<void> Document::start(const io::StartShape& shape, bool saves_former) {
   if (auto may = may_leave(saves_former); !may) return may;
   auto clay = clay_of(shape);
   if (!clay) return clay.error();
-  return start_untitled(std::move(clay).value(), saves_former);
+  return start_untitled(Sculpture(std::move(clay).value()), saves_former);
 }
 
 Result<std::vector<std::string>> Document::open(const fs::path& project, bool saves_former,
@@ -208,25 +262,16 @@ void Document::recall_steps() {
                 static_cast<std::size_t>(sculpture().redo_depth()));
 }
 
-Result<std::vector<std::string>> Document::import(const fs::path& mesh, bool saves_former,
-                                                  const Progress& progress) {
+Result<std::vector<std::string>> Document::import(const fs::path& mesh, const MeshImport& how,
+                                                  bool saves_former, const Progress& progress) {
   if (auto may = may_leave(saves_former); !may) return may.error();
-  const auto prepared = io::read_prepared_mesh(mesh);
-  if (!prepared) return prepared.error();
-  ClayOptions options;
-  // The same resolution as `argil import` takes by default.
-  options.voxel_mm = prepared.value().largest_side_mm / io::kUsualResolution;
-  auto imported = import_mesh(prepared.value().mesh, options, progress);
-  if (!imported) return imported.error();
-  auto notes = told(prepared.value().closing, imported.value().report);
-  for (std::string& doubt : io::frame_doubts(mesh, prepared.value().frame)) {
-    notes.push_back(std::move(doubt));
-  }
-  if (auto started = start_untitled(std::move(imported.value().clay), saves_former); !started) {
+  auto made = how.keeps_parts ? pieces_of(mesh, how, progress) : clay_of(mesh, how, progress);
+  if (!made) return made.error();
+  if (auto started = start_untitled(std::move(made.value().sculpture), saves_former); !started) {
     return started.error();
   }
   is_only_here_ = true;
-  return notes;
+  return std::move(made.value().notes);
 }
 
 Result<void> Document::save() {

@@ -12,6 +12,7 @@
 #include "argil/io/session.h"
 #include "argil/io/stroke_script.h"
 
+#include "document/mesh_offer.h"
 #include "document/step_history.h"
 
 namespace argil::viewer {
@@ -60,10 +61,10 @@ class Document {
   Result<std::vector<std::string>> open(const std::filesystem::path& project, bool saves_former,
                                         const Progress& progress);
 
-  /// A mesh as clay, closed, 256 voxels along its longest side. What was mended comes back as
-  /// sentences. Errors  as read_prepared_mesh, import_mesh.
-  Result<std::vector<std::string>> import(const std::filesystem::path& mesh, bool saves_former,
-                                          const Progress& progress);
+  /// A mesh as clay, or its parts as pieces. What was mended comes back as sentences.
+  /// Errors  as read_prepared_mesh, read_prepared_parts, import_mesh.
+  Result<std::vector<std::string>> import(const std::filesystem::path& mesh, const MeshImport& how,
+                                          bool saves_former, const Progress& progress);
 
   /// Writes the file also where it was removed meanwhile.
   /// Errors  disk; bad_input for a project that has no name yet.
@@ -82,7 +83,7 @@ class Document {
   Result<void> may_leave(bool saves) const;
   bool is_among_untitled(const std::filesystem::path& file) const;
   Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
-  Result<void> start_untitled(Clay clay, bool saves_former);
+  Result<void> start_untitled(Sculpture sculpture, bool saves_former);
   void recall_steps();
 
   std::filesystem::path home_;

@@ -27,7 +27,8 @@ struct DocumentThreadOptions {
 };
 
 /// A thread that owns the document (clay and session), does what is requested in order, and answers
-/// with blocks to draw and states to show. The caller never waits for it.
+/// with blocks to draw and states to show. The caller never waits for it. Views, rays, slices and
+/// strokes are in the sculpture's frame, whichever piece they meet.
 ///
 /// Threads  all but the constructor and the destructor: any thread, usually the window's.
 class DocumentThread {
@@ -53,7 +54,7 @@ class DocumentThread {
   std::optional<SlicePicture> take_slice() { return outbox_.take_slice(); }
 
   /// What a renderer has to take, once; with the input times whose dabs it shows.
-  BlockNews take_blocks(std::vector<double>& shown_inputs_s) {
+  SceneNews take_blocks(std::vector<double>& shown_inputs_s) {
     return outbox_.take_blocks(shown_inputs_s);
   }
   std::vector<Notice> take_notices() { return outbox_.take_notices(); }

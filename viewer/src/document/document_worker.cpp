@@ -12,12 +12,13 @@
 
 #include "argil/engine/path_on_clay.h"
 #include "argil/io/alpha_file.h"
-#include "argil/io/clay_check.h"
 #include "argil/io/mesh_file.h"
 
 #include "base/text.h"
 #include "document/coarse_view.h"
+#include "document/scene_distance.h"
 #include "document/touch.h"
+#include "picture/piece_frame.h"
 
 namespace argil::viewer {
 namespace {
@@ -52,6 +53,7 @@ void DocumentWorker::post_state() {
   state.left = left_;
   state.stamp = stamp_;
   state.alpha = alpha_;
+  state.offer = offer_;
   state.dabs = dabs_;
   state.strokes = strokes_;
   state.changes = changes_;
@@ -65,6 +67,7 @@ void DocumentWorker::post_state() {
     state.is_untitled = document_.is_untitled();
     state.is_changed = document_.is_changed();
     state.undo_depth = document_.sculpture().undo_depth();
+    state.pieces_added = pieces_added_;
     state.steps = step_names();
     state.has_mask = clay.has_mask();
     state.is_stroke_open = clay.is_stroke_open();
@@ -72,7 +75,8 @@ void DocumentWorker::post_state() {
     state.voxel_mm = clay.options().voxel_mm;
     state.levels = clay.level_stats();
     state.use = clay.use();
-    state.display = feed_.stats();
+    state.display = feed_.active(document_.sculpture()).stats();
+    post_pieces(state);
   }
   outbox_.post_state(std::move(state), report_);
 }
@@ -93,17 +97,16 @@ std::shared_ptr<const StepNames> DocumentWorker::step_names() {
 /// The view for the next update. A clay that has just come is first shown by its coarse levels, in
 /// less time than a frame of a large one takes; then as the window sees it, and in that nothing
 /// counts as hidden before.
-std::optional<DisplayView> DocumentWorker::view_to_show() {
+SceneFeed::ViewOf DocumentWorker::view_to_show() {
   const bool was_sketched = std::exchange(is_sketched_, false);
-  if (std::exchange(is_new_, false)) {
-    if (auto coarse = coarse_view(document_.clay())) {
-      is_sketched_ = true;
-      return coarse;
-    }
-  }
+  if (was_sketched) looks_at_all_ = true;
   std::optional<DisplayView> view = view_;
   if (was_sketched && view) view->hysteresis = 0.0;
-  return view;
+  return [this, view, is_new = std::exchange(is_new_, false)](const Clay& clay) {
+    const auto coarse = is_new ? coarse_view(clay) : std::nullopt;
+    if (coarse) is_sketched_ = true;
+    return coarse ? coarse : view;
+  };
 }
 
 void DocumentWorker::show() {
@@ -113,11 +116,15 @@ void DocumentWorker::show() {
     told_problem_ = problem.error().message;
     complain(problem.error());
   }
-  BlockNews news;
+  SceneNews news;
   if (document_.has_project()) {
     const auto start = Clock::now();
-    auto updated = preview_ ? feed_.update(document_.clay(), *preview_)
-                            : feed_.update(document_.clay(), view_to_show());
+    const Sculpture& sculpture = document_.sculpture();
+    const auto update = [&] {
+      const SceneFeed::ViewOf view = view_to_show();
+      return feed_.update(sculpture, view, std::exchange(looks_at_all_, false));
+    };
+    auto updated = preview_ ? feed_.update(sculpture, *preview_) : update();
     if (updated) {
       news = std::move(updated).value();
     } else {
@@ -129,7 +136,7 @@ void DocumentWorker::show() {
     new_dabs_ = 0;
   } else {
     // No clay: the window drops all blocks that it has.
-    news.is_fresh = true;
+    news = feed_.drop_all();
   }
   if (!news.empty()) is_slice_stale_ = true;
   outbox_.post_blocks(std::move(news), applied_inputs_s_);
@@ -155,7 +162,7 @@ void DocumentWorker::post_slice() {
   if (!is_slice_stale_ || !plane_ || !document_.has_project()) return;
   assert(plane_->columns > 1 && plane_->rows > 1);
   is_slice_stale_ = false;
-  const Clay& clay = document_.clay();
+  const SceneDistance scene(document_.sculpture());
   SlicePicture slice{plane_->corner_mm, plane_->along_mm, plane_->down_mm,
                      plane_->columns,   plane_->rows,     {}};
   slice.distance_mm.reserve(static_cast<std::size_t>(slice.columns) *
@@ -165,24 +172,42 @@ void DocumentWorker::post_slice() {
         slice.corner_mm + (static_cast<double>(row) / (slice.rows - 1)) * slice.down_mm;
     for (int column = 0; column < slice.columns; ++column) {
       const Vec3 p = start + (static_cast<double>(column) / (slice.columns - 1)) * slice.along_mm;
-      slice.distance_mm.push_back(static_cast<float>(clay.distance_at(p)));
+      slice.distance_mm.push_back(static_cast<float>(scene.at(p)));
     }
   }
   outbox_.post_slice(std::move(slice));
 }
 
-std::optional<Pick> DocumentWorker::pick_at(const Ray& ray) {
+std::optional<ScenePick> DocumentWorker::pick_at(const Ray& ray) {
   if (!document_.has_project()) return std::nullopt;
+  const Sculpture& sculpture = document_.sculpture();
+  if (!preview_) return feed_.pick(sculpture, ray);
   // While a preview is shown the pointer is over it and not over the clay: its field is whole.
-  const auto picked = preview_ ? pick(preview_->clay(), ray) : feed_.pick(ray);
-  return picked ? picked.value() : std::nullopt;
+  const auto picked = pick(preview_->clay(), unplaced(active_look().placement, ray));
+  if (!picked || !picked.value()) return std::nullopt;
+  return ScenePick{sculpture.active(), placed(active_look().placement, *picked.value())};
 }
 
 PointerAnswer DocumentWorker::answer(const Ray& ray, const std::optional<Touch>& touch) {
-  PointerAnswer answer{ray, pick_at(ray), {}};
+  PointerAnswer answer;
+  answer.ray = ray;
+  const auto picked = pick_at(ray);
+  if (!picked) return answer;
+  const Sculpture& sculpture = document_.sculpture();
+  if (picked->piece != sculpture.active()) {
+    answer.other = sculpture.look(picked->piece).name;
+    return answer;
+  }
+  answer.pick = picked->pick;
   // A preview has no field to feel.
-  if (answer.pick && touch && !preview_) {
-    answer.felt = feel(document_.clay(), {answer.pick->point_mm, answer.pick->normal}, *touch);
+  if (!touch || preview_) return answer;
+  const Placement& at = active_look().placement;
+  answer.felt =
+      feel(sculpture.clay(),
+           {unplaced(at, picked->pick.point_mm), turned_back(at, picked->pick.normal)}, *touch);
+  if (answer.felt) {
+    answer.felt->tool_mm = placed(at, answer.felt->tool_mm);
+    answer.felt->force_n = turned(at, answer.felt->force_n);
   }
   return answer;
 }
@@ -222,7 +247,7 @@ void DocumentWorker::take_hand() {
   // While the mouse draws a stroke the hand waits: it would end that one as its own.
   if (!document_.has_project() || document_.clay().is_stroke_open()) return;
   ClayWorkerOptions options;
-  options.may_begin = [this] { return document_.sculpture().check_unlocked().ok(); };
+  options.may_begin = [this] { return check_may_be_worked().ok(); };
   options.tool = link_->tool;
   options.style = link_->style;
   options.on_stroke = [this](const Stroke& stroke) {
@@ -247,7 +272,9 @@ bool DocumentWorker::step_hand() {
   new_dabs_ += static_cast<int>(dabs - shown_hand_dabs_);
   shown_hand_dabs_ = dabs;
   hand_shown_ = Clock::now();
-  if (is_painted(link_->tool.action)) feed_.touch_mask_everywhere();
+  if (is_painted(link_->tool.action)) {
+    feed_.active(document_.sculpture()).touch_mask_everywhere();
+  }
   return true;
 }
 
@@ -263,7 +290,7 @@ bool DocumentWorker::has_clay(const char* what) {
 
 void DocumentWorker::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
-  if (auto free = document_.sculpture().check_unlocked(); !free) return complain(free.error());
+  if (auto may = check_may_be_worked(); !may) return complain(may.error());
   // One whose dabs the clay still works off, or a clay of which only coarse levels are shown: a
   // preview begins with what is drawn of the clay.
   const bool is_behind = has_backlog();
@@ -272,7 +299,8 @@ void DocumentWorker::on(const BeginStroke& begin) {
   if (!begin.goes_on) gesture_strokes_ = 0;
   is_stamp_ = begin.is_stamp;
   // Without memory for it the clay itself is shown.
-  if (auto preview = feed_.begin_preview(document_.clay(), begin.tool, begin.style)) {
+  BlockFeed& feed = feed_.active(document_.sculpture());
+  if (auto preview = feed.begin_preview(document_.clay(), begin.tool, begin.style)) {
     preview_ = std::move(preview).value();
   }
   if (auto begun = document_.clay().begin_stroke(begin.tool, begin.style); !begun) {
@@ -289,11 +317,15 @@ void DocumentWorker::on(const BeginStroke& begin) {
 void DocumentWorker::on(const ExtendStroke& extend) {
   if (!document_.has_project() || !document_.clay().is_stroke_open() || is_preview_ending_) return;
   const auto start = Clock::now();
-  if (preview_) {
-    if (auto drawn = preview_->extend(extend.samples); !drawn) drop_preview();
+  std::vector<StrokeSample> samples;
+  samples.reserve(extend.samples.size());
+  for (const StrokeSample& sample : extend.samples) {
+    samples.push_back(unplaced(active_look().placement, sample));
   }
-  const Result<int> dabs =
-      preview_ ? queue(extend.samples) : document_.clay().extend_stroke(extend.samples);
+  if (preview_) {
+    if (auto drawn = preview_->extend(samples); !drawn) drop_preview();
+  }
+  const Result<int> dabs = preview_ ? queue(samples) : document_.clay().extend_stroke(samples);
   // Of a previewed stroke this is the time of the preview, which is what the user waits for.
   edit_ms_ += ms_since(start);
   applied_inputs_s_.push_back(extend.input_s);
@@ -302,7 +334,7 @@ void DocumentWorker::on(const ExtendStroke& extend) {
     end_open_stroke();
     return;
   }
-  stroke_.samples.insert(stroke_.samples.end(), extend.samples.begin(), extend.samples.end());
+  stroke_.samples.insert(stroke_.samples.end(), samples.begin(), samples.end());
   dabs_ += dabs.value();
   new_dabs_ += dabs.value();
   if (is_painted(stroke_.tool.action)) note_mask(stroke_);
@@ -335,7 +367,7 @@ void DocumentWorker::drop_preview() {
   if (!preview_) return;
   preview_.reset();
   is_preview_ending_ = false;
-  feed_.drop_preview();
+  feed_.active(document_.sculpture()).drop_preview();
 }
 
 /// Where the last dabs may have painted, images included.
@@ -354,7 +386,7 @@ void DocumentWorker::note_mask(const Stroke& stroke) {
     box.include(dab.at.position_mm);
     box.min -= Vec3{reach, reach, reach};
     box.max += Vec3{reach, reach, reach};
-    feed_.touch_mask(box);
+    feed_.active(document_.sculpture()).touch_mask(box);
   }
 }
 
@@ -393,7 +425,7 @@ void DocumentWorker::on(const CancelStroke&) {
   for (; gesture_strokes_ > 0; --gesture_strokes_) {
     if (!apply_history(io::HistoryStep::undo)) break;
   }
-  feed_.touch_mask_everywhere();
+  feed_.active(document_.sculpture()).touch_mask_everywhere();
 }
 
 /// One undo or redo, recorded; false where the clay refused.
@@ -404,6 +436,7 @@ bool DocumentWorker::apply_history(io::HistoryStep move) {
   }
   document_.record(move);
   ++changes_;
+  piece_list_changed();
   return true;
 }
 
@@ -412,6 +445,7 @@ void DocumentWorker::on(const DoStep& wanted) {
   end_open_stroke();
   const auto* move = std::get_if<io::HistoryStep>(&wanted.step);
   const bool is_history = move != nullptr;
+  const bool may_mask = may_touch_mask(wanted.step);
   // Undo and redo are too short for a bar.
   const Progress progress = is_history ? Progress() : outbox_.begin_task("change the clay");
   const auto done = io::apply_step(document_.sculpture(), wanted.step, progress);
@@ -428,7 +462,9 @@ void DocumentWorker::on(const DoStep& wanted) {
   }
   document_.record(wanted.step);
   ++changes_;
-  feed_.touch_mask_everywhere();
+  piece_list_changed();
+  is_slice_stale_ = true;
+  if (may_mask) feed_.touch_masks();
 }
 
 void DocumentWorker::on(const GoToStep& wanted) {
@@ -442,7 +478,8 @@ void DocumentWorker::on(const GoToStep& wanted) {
         document_.history().done() > aim ? io::HistoryStep::undo : io::HistoryStep::redo;
     if (!apply_history(move)) break;
   }
-  feed_.touch_mask_everywhere();
+  is_slice_stale_ = true;
+  feed_.touch_masks();
 }
 
 // ---- files -------------------------------------------------------------------------------------
@@ -452,6 +489,7 @@ void DocumentWorker::clay_changed_hands() {
   preview_.reset();
   is_preview_ending_ = false;
   feed_.restart();
+  piece_list_changed();
   is_new_ = document_.has_project();
   is_sketched_ = false;
   ++clays_;
@@ -502,23 +540,34 @@ void DocumentWorker::on(const OpenFile& open) {
   // Recovering repeats every step that was left, and importing works out a field: both may be long.
   const Progress progress = outbox_.begin_task(is_clay ? "open" : "import");
   auto opened = is_clay ? document_.open(open.file, open.saves_former, progress)
-                        : document_.import(open.file, open.saves_former, progress);
+                        : document_.import(open.file, {}, open.saves_former, progress);
   outbox_.end_task();
   if (!opened) return complain(opened.error());
   clay_changed_hands();
   post_all(opened.value());
-  post_pieces();
   post(Notice::Kind::done, (is_clay ? "opened " : "imported ") + file_in_quotes(open.file));
 }
 
-/// The window shows one of them.
-void DocumentWorker::post_pieces() {
-  const Sculpture& sculpture = document_.sculpture();
-  const std::size_t others = sculpture.piece_count() - 1;
-  if (others == 0) return;
-  post(Notice::Kind::warning,
-       "the project has several pieces: " + in_quotes(sculpture.look(sculpture.active()).name) +
-           " is shown and sculpted, the other " + std::to_string(others) + " stay as they are");
+/// The dialog says meanwhile that it is read. What cannot be read is an offer without a file, which
+/// closes the dialog.
+void DocumentWorker::on(const LookAtMesh& look) {
+  auto seen = look_at_mesh(look.file);
+  if (!seen) complain(seen.error());
+  MeshOffer offer = seen ? std::move(seen).value() : MeshOffer();
+  offer.number = look.number;
+  offer_ = std::make_shared<const MeshOffer>(std::move(offer));
+}
+
+void DocumentWorker::on(const ImportMesh& wanted) {
+  left_.reset();
+  if (document_.has_project()) end_open_stroke();
+  const Progress progress = outbox_.begin_task("import");
+  auto imported = document_.import(wanted.file, wanted.how, wanted.saves_former, progress);
+  outbox_.end_task();
+  if (!imported) return complain(imported.error());
+  clay_changed_hands();
+  post_all(imported.value());
+  post(Notice::Kind::done, "imported " + file_in_quotes(wanted.file));
 }
 
 void DocumentWorker::on(const DropProject& drop) {
@@ -578,6 +627,7 @@ void DocumentWorker::on(const SaveProjectAs& save) {
   skips_next_ = !saved && save.goes_on;
   if (!saved) return complain(saved.error());
   feed_.restart();
+  piece_list_changed();
   ++changes_;  // what undo can reach may be less
   post_all(saved.value());
   post(Notice::Kind::done, "saved " + file_in_quotes(save.file));
@@ -596,6 +646,9 @@ void DocumentWorker::on(const EndProject& end) {
 void DocumentWorker::on(const ExportMesh& wanted) {
   if (!has_clay("export")) return;
   end_open_stroke();
+  const bool is_together = document_.sculpture().piece_count() > 1 && !wanted.options.parts &&
+                           extension_of(wanted.file) == ".3mf";
+  if (is_together) return export_pieces(wanted);
   const Progress progress = outbox_.begin_task("export");
   auto exported = io::export_mesh(wanted.file, document_.clay(), wanted.options, progress);
   outbox_.end_task();
@@ -603,13 +656,15 @@ void DocumentWorker::on(const ExportMesh& wanted) {
   // Posted as a new object: the window may still show the former one.
   auto report = std::make_shared<PrintReport>();
   report->changes = changes_;
+  report->piece = feed_.key_of(document_.clay());
   report->verdict = exported.value().verdict;
   report->exported = std::move(exported).value();
   const bool good = report->verdict.printable;
   report_ = std::move(report);
+  const bool is_alone = document_.sculpture().piece_count() > 1;
   post(good ? Notice::Kind::done : Notice::Kind::warning,
-       "exported " + file_in_quotes(wanted.file) +
-           (good ? ": printable" : ": not printable, see Print"));
+       "exported " + (is_alone ? in_quotes(active_look().name) + " alone to " : "") +
+           file_in_quotes(wanted.file) + (good ? ": printable" : ": not printable, see Print"));
 }
 
 /// A check that fails or is stopped leaves the former report, whose `changes` tell its age.
@@ -617,12 +672,13 @@ void DocumentWorker::on(const CheckPrint& check) {
   if (!has_clay("check")) return;
   end_open_stroke();
   const Progress progress = outbox_.begin_task("check");
-  auto judged = io::check_clay(document_.clay(), check.printer, progress);
+  auto judged = judge(check.printer, progress);
   outbox_.end_task();
   if (!judged) return complain(judged.error());
   auto report = std::make_shared<PrintReport>();
   report->changes = changes_;
-  report->verdict = std::move(judged.value().verdict);
+  report->piece = feed_.key_of(document_.clay());
+  report->verdict = std::move(judged).value();
   report->printer = check.printer.name;
   report_ = std::move(report);
 }

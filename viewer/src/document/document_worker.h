@@ -9,10 +9,10 @@
 #include "argil/engine/clay_worker.h"
 #include "argil/engine/preview.h"
 
-#include "document/block_news.h"
 #include "document/document.h"
 #include "document/outbox.h"
 #include "document/request.h"
+#include "document/scene_feed.h"
 
 namespace argil::viewer {
 
@@ -29,7 +29,10 @@ class DocumentWorker {
   void perform(Request request);
   /// Brings blocks, state and slice up to date with the clay, and posts them.
   void show();
-  void look(const DisplayView& view) { view_ = view; }
+  void look(const DisplayView& view) {
+    view_ = view;
+    looks_at_all_ = true;
+  }
   void cut(const std::optional<SlicePlane>& plane);
   PointerAnswer answer(const Ray& ray, const std::optional<Touch>& touch);
 
@@ -55,8 +58,15 @@ class DocumentWorker {
   void on(const CancelStroke&);
   void on(const DoStep& step);
   void on(const GoToStep& wanted);
+  void on(const SelectPieceAt& wanted);
+  void on(const AddBallPiece&);
+  void on(const ImportPiece& import);
+  void on(const DuplicatePiece&);
+  void on(const StandPiece& wanted);
   void on(const NewClay& make);
   void on(const OpenFile& open);
+  void on(const LookAtMesh& look);
+  void on(const ImportMesh& wanted);
   void on(const ForgetQuestion&) { left_.reset(); }
   void on(const DropProject& drop);
   void on(const LoadStamp& load);
@@ -71,8 +81,10 @@ class DocumentWorker {
   void on(const UnlinkHaptics&);
 
   bool has_clay(const char* what);
-  std::optional<DisplayView> view_to_show();
-  std::optional<Pick> pick_at(const Ray& ray);
+  const PieceLook& active_look();
+  Result<void> check_may_be_worked();
+  SceneFeed::ViewOf view_to_show();
+  std::optional<ScenePick> pick_at(const Ray& ray);
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
   void end_open_stroke();
@@ -85,17 +97,27 @@ class DocumentWorker {
   void post(Notice::Kind kind, std::string text);
   void complain(const Error& error);
   void post_all(const std::vector<std::string>& notes);
-  void post_pieces();
   void post_state();
+  void post_pieces(ClayState& state);
   std::shared_ptr<const StepNames> step_names();
   void post_slice();
 
+  void add_piece(const AddPiece& add);
+  bool may_touch_mask(const io::ScriptStep& step) const;
+  void piece_list_changed() noexcept { is_list_stale_ = looks_at_all_ = true; }
+  void export_pieces(const ExportMesh& wanted);
+  Result<mesh::MeshVerdict> judge(const mesh::Printer& printer, const Progress& progress);
+
   Outbox& outbox_;
   Document document_;
-  BlockFeed feed_;
+  SceneFeed feed_;
+  std::shared_ptr<const PieceList> pieces_;
+  std::int64_t pieces_added_ = 0;
   std::optional<DisplayView> view_;
-  bool is_new_ = false;       ///< the clay has not been shown yet
-  bool is_sketched_ = false;  ///< it has been shown, by its coarse levels alone
+  bool looks_at_all_ = true;   ///< other pieces than the active one may have changed, or the view
+  bool is_list_stale_ = true;  ///< pieces_ is not that of the sculpture
+  bool is_new_ = false;        ///< the clay has not been shown yet
+  bool is_sketched_ = false;   ///< it has been shown, by its coarse levels alone
   std::optional<SlicePlane> plane_;
   bool is_slice_stale_ = false;
   std::optional<Preview> preview_;  ///< of the open stroke, where its tool is large
@@ -113,6 +135,7 @@ class DocumentWorker {
   std::shared_ptr<const PrintReport> report_;
   std::shared_ptr<const Stamp> stamp_;
   std::shared_ptr<const Alpha> alpha_;
+  std::shared_ptr<const MeshOffer> offer_;
   std::shared_ptr<const StepNames> step_names_;
   std::int64_t named_changes_ = -1;  ///< changes_ when these were made
   std::string told_problem_;

@@ -16,7 +16,7 @@ void Outbox::post(Notice notice) {
   notices_.push_back(std::move(notice));
 }
 
-void Outbox::post_blocks(BlockNews news, const std::vector<double>& shown_inputs_s) {
+void Outbox::post_blocks(SceneNews news, const std::vector<double>& shown_inputs_s) {
   const std::lock_guard lock(mutex_);
   news_.append(std::move(news));
   shown_inputs_s_.insert(shown_inputs_s_.end(), shown_inputs_s.begin(), shown_inputs_s.end());
@@ -58,7 +58,7 @@ void Outbox::set_task(Task task) {
   announce();
 }
 
-BlockNews Outbox::take_blocks(std::vector<double>& shown_inputs_s) {
+SceneNews Outbox::take_blocks(std::vector<double>& shown_inputs_s) {
   has_news_ = false;  // before: what is posted from now on is announced again
   const std::lock_guard lock(mutex_);
   shown_inputs_s = std::exchange(shown_inputs_s_, {});

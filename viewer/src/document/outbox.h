@@ -14,8 +14,8 @@
 #include "argil/core/progress.h"
 #include "argil/engine/pick.h"
 
-#include "document/block_news.h"
 #include "document/clay_state.h"
+#include "document/scene_feed.h"
 #include "document/touch.h"
 #include "picture/renderer.h"
 
@@ -29,11 +29,12 @@ struct SlicePlane {
   friend bool operator==(const SlicePlane&, const SlicePlane&) = default;
 };
 
-/// What a ray meets, and what would be felt there.
+/// What a ray meets, and what would be felt there; in the sculpture's frame.
 struct PointerAnswer {
   Ray ray;
-  std::optional<Pick> pick;
+  std::optional<Pick> pick;  ///< of the active piece, where no other is in front of it
   std::optional<FeltForce> felt;
+  std::string other;  ///< the name of the piece that is met instead; "" none
 };
 
 /// What the document thread has made and the window has not taken yet.
@@ -50,7 +51,7 @@ class Outbox {
   bool has_news() const noexcept { return has_news_; }
 
   void post(Notice notice);
-  void post_blocks(BlockNews news, const std::vector<double>& shown_inputs_s);
+  void post_blocks(SceneNews news, const std::vector<double>& shown_inputs_s);
   void post_slice(SlicePicture slice);
   void post_state(ClayState state, std::shared_ptr<const PrintReport> report);
 
@@ -64,7 +65,7 @@ class Outbox {
   void stop_all() noexcept { is_ending_ = true; }
 
   /// What a renderer has to take, once; with the input times whose dabs it shows.
-  BlockNews take_blocks(std::vector<double>& shown_inputs_s);
+  SceneNews take_blocks(std::vector<double>& shown_inputs_s);
   std::optional<SlicePicture> take_slice();
   std::vector<Notice> take_notices();
   bool has_blocks() const;
@@ -77,7 +78,7 @@ class Outbox {
   void set_task(Task task);
 
   mutable std::mutex mutex_;
-  BlockNews news_;
+  SceneNews news_;
   std::vector<double> shown_inputs_s_;
   std::optional<SlicePicture> slice_;
   std::vector<Notice> notices_;

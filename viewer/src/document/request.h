@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <variant>
 #include <vector>
@@ -9,15 +10,19 @@
 #include "argil/core/clay_heartbeat.h"
 #include "argil/core/tool_sample.h"
 #include "argil/core/window_channel.h"
+#include "argil/engine/pick.h"
 #include "argil/engine/stroke.h"
 #include "argil/engine/tool.h"
 #include "argil/io/export.h"
 #include "argil/io/stroke_script.h"
 #include "argil/mesh/printer.h"
 
+#include "document/mesh_offer.h"
+
 namespace argil::viewer {
 
-// What the window asks for. Done in the order in which it was sent, on the document thread.
+// What the window asks for, in the sculpture's frame but where something else is said. Done in the
+// order in which it was sent, on the document thread.
 
 // A stroke arrives in pieces while the hand makes it.
 
@@ -36,9 +41,28 @@ struct EndStroke {};
 /// Takes back the whole gesture, with the strokes before this one that it goes on from.
 struct CancelStroke {};
 
-/// Undo, redo, an operation on the whole clay or its mask: one step of the journal.
+/// Undo, redo, an operation on the whole clay or its mask (in the active piece's frame), a piece:
+/// one step of the journal.
 struct DoStep {
   io::ScriptStep step;
+};
+
+/// Strokes go to the piece that a ray meets first; nothing where it meets none.
+struct SelectPieceAt {
+  Ray ray;
+};
+/// A ball beside all that is there, a third as large, in the voxels of the active piece.
+struct AddBallPiece {};
+/// A mesh as another piece, closed, where it stands in its file, 256 voxels along its longest side.
+struct ImportPiece {
+  std::filesystem::path file;
+};
+/// A copy of the active piece, in its place.
+struct DuplicatePiece {};
+/// Moves the active piece straight: its lowest point to z = 0, or the middle of the box around it
+/// to x = y = 0.
+struct StandPiece {
+  enum class Where { bed, middle } where = Where::bed;
 };
 
 /// Undo or redo as often as it takes until this many of ClayState::steps are done.
@@ -59,6 +83,17 @@ struct OpenFile {
   /// What becomes of steps that a killed session left.
   enum class Left { ask, repeat, put_aside } left = Left::ask;
 };
+/// Looks at a mesh that may be imported: it becomes ClayState::offer once it is read.
+struct LookAtMesh {
+  std::filesystem::path file;
+  std::int64_t number = 0;  ///< given back in the offer
+};
+/// A mesh that becomes clay, as OpenFile, in the way that was chosen.
+struct ImportMesh {
+  std::filesystem::path file;
+  MeshImport how;
+  bool saves_former = true;
+};
 /// A closed mesh to stamp with: it becomes ClayState::stamp once it is read.
 struct LoadStamp {
   std::filesystem::path file;
@@ -67,7 +102,8 @@ struct LoadStamp {
 struct LoadAlpha {
   std::filesystem::path file;
 };
-/// Says by a notice where a path of guidance does not lie on the clay; nothing where it does.
+/// Says by a notice where a path of guidance, in the active piece's frame, does not lie on the
+/// clay; nothing where it does.
 struct CheckPath {
   std::vector<Vec3> path_mm;
 };
@@ -108,8 +144,9 @@ struct LinkHaptics {
 struct UnlinkHaptics {};
 
 using Request = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep,
-                             NewClay, OpenFile, ForgetQuestion, DropProject, LoadStamp, LoadAlpha,
-                             CheckPath, SaveProject, SaveProjectAs, EndProject, ExportMesh,
-                             CheckPrint, LinkHaptics, UnlinkHaptics>;
+                             SelectPieceAt, AddBallPiece, ImportPiece, DuplicatePiece, StandPiece,
+                             NewClay, OpenFile, LookAtMesh, ImportMesh, ForgetQuestion, DropProject,
+                             LoadStamp, LoadAlpha, CheckPath, SaveProject, SaveProjectAs,
+                             EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 }  // namespace argil::viewer

@@ -84,6 +84,9 @@ struct NameOf {
     }
     return "Mask filled";
   }
+  std::string operator()(const MaskOutline& outline) const {
+    return outline.frees ? "Unmasked within" : "Masked within";
+  }
 };
 
 }  // namespace

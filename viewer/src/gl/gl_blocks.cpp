@@ -13,7 +13,8 @@ namespace argil::viewer {
 namespace {
 
 // A page takes 6 MB of vertices and 5 of triangles, which blocks of clay fill alike: 20 million
-// triangles are some 60 pages, and a small sculpture is one.
+// triangles are some 60 pages. The first two are smaller, so that a thousand small pieces need no
+// more than a few large ones.
 constexpr std::uint32_t kPageVertices = 1U << 18;
 constexpr std::uint32_t kPageTriangles = 3U << 17;
 
@@ -211,8 +212,9 @@ Result<GlBlocks::Page*> GlBlocks::page_with_room(const Slot& slot) {
   for (const auto& page : pages_) {
     if (fits(*page)) return page.get();
   }
-  auto page = std::make_unique<Page>(std::max(slot.vertex_room, kPageVertices),
-                                     std::max(slot.ranges[kFine].room, kPageTriangles));
+  const unsigned smaller = pages_.empty() ? 4 : pages_.size() == 1 ? 2 : 0;
+  auto page = std::make_unique<Page>(std::max(slot.vertex_room, kPageVertices >> smaller),
+                                     std::max(slot.ranges[kFine].room, kPageTriangles >> smaller));
   page->vertices = GlBuffer(count_);
   const std::int64_t vertex_bytes = page->vertex_gaps.size() * kVertexBytes;
   if (auto done = reserve(GL_ARRAY_BUFFER, page->vertices, vertex_bytes); !done)

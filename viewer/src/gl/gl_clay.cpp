@@ -7,6 +7,7 @@
 
 #include "gl/gl_clay_shaders.h"
 #include "gl/gl_state.h"
+#include "picture/piece_frame.h"
 
 namespace argil::viewer {
 namespace {
@@ -20,6 +21,10 @@ constexpr std::array<Vec3, 7> kLevelColors{{{0.008, 0.162, 0.445},    // blue
                                             {0.093, 0.456, 0.815},    // sky
                                             {0.665, 0.112, 0.006},    // vermilion
                                             {0.871, 0.776, 0.054}}};  // yellow
+
+/// Of a piece without a colour, by shading; curvature and level have colours of their own.
+constexpr std::array<Vec3, 4> kBaseColors{
+    {{0.52, 0.225, 0.128}, {0.60, 0.585, 0.56}, {1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}};
 
 constexpr const char* kShadingNames[] = {"matcap", "plain", "curvature", "level"};
 constexpr const char* kShades[] = {kMatcapShade, kPlainShade, kCurvatureShade, kLevelShade};
@@ -120,6 +125,16 @@ PixelRect area_of(const EyeView& eye, const Box3& box_mm) {
           within(std::ceil(top + kMargin), eye.part.height) - y};
 }
 
+PieceView view_of_piece(const ShownPiece& piece, const GlBlocks* blocks, const EyeView& eye,
+                        const ClipPlane& cut) {
+  PieceView view{
+      piece.piece, blocks, {unplaced(piece.placement, eye.lens), eye.part}, cut, piece.color};
+  if (!cut) return view;
+  view.cut->normal = turned_back(piece.placement, cut->normal);
+  view.cut->offset += dot(cut->normal, piece.placement.position_mm);
+  return view;
+}
+
 Result<GlClay> GlClay::make(ObjectCount& count) {
   GlClay made;
   for (std::size_t i = 0; i < made.shadings_.size(); ++i) {
@@ -135,13 +150,13 @@ Result<GlClay> GlClay::make(ObjectCount& count) {
   return made;
 }
 
-void GlClay::draw(const GlBlocks& blocks, const Picture& picture, const EyeView& eye,
-                  const ClipPlane& cut) const {
+void GlClay::draw(std::span<const PieceView> pieces, const Picture& picture, bool is_behind) const {
+  if (pieces.empty()) return;
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
+  glDepthFunc(is_behind ? GL_LESS : GL_LEQUAL);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  if (cut) {
+  if (pieces.front().cut) {
     // A cut shows the inside, whose triangles look away.
     glEnable(GL_CLIP_DISTANCE0);
     glDisable(GL_CULL_FACE);
@@ -150,32 +165,42 @@ void GlClay::draw(const GlBlocks& blocks, const Picture& picture, const EyeView&
     glCullFace(GL_BACK);
     glFrontFace(GL_CCW);
   }
-  assert(static_cast<std::size_t>(picture.shading) < shadings_.size());
-  const GlProgram& shading = shadings_[static_cast<std::size_t>(picture.shading)];
+  const auto number = static_cast<std::size_t>(picture.shading);
+  assert(number < shadings_.size());
+  const GlProgram& shading = shadings_[number];
   shading.use();
-  set_lens(shading, eye, cut);
-  blocks.draw([&shading](int level) {
-    assert(level >= 0);
-    shading.set("level_color", kLevelColors[static_cast<std::size_t>(level) % kLevelColors.size()]);
-  });
-  if (picture.has_wires) {
-    wires_.use();
-    set_lens(wires_, eye, cut);
-    wires_.set("wire", 0.004, 0.004, 0.006, 0.55);
-    blend_over();
-    // Drawn a little before the faces they bound; the depth stays that of the faces.
-    glDepthMask(GL_FALSE);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glEnable(GL_POLYGON_OFFSET_LINE);
-    glPolygonOffset(-1.0F, -4.0F);
-    blocks.draw([](int) {});
-    glDisable(GL_POLYGON_OFFSET_LINE);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
+  for (const PieceView& piece : pieces) {
+    set_lens(shading, piece.eye, piece.cut);
+    shading.set("base_color", piece.color.value_or(kBaseColors[number]));
+    piece.blocks->draw([&shading](int level) {
+      assert(level >= 0);
+      shading.set("level_color",
+                  kLevelColors[static_cast<std::size_t>(level) % kLevelColors.size()]);
+    });
   }
+  glDepthFunc(GL_LEQUAL);
+  if (picture.has_wires) draw_wires(pieces);
   glDisable(GL_CLIP_DISTANCE0);
   glDisable(GL_CULL_FACE);
+}
+
+void GlClay::draw_wires(std::span<const PieceView> pieces) const {
+  wires_.use();
+  wires_.set("wire", 0.004, 0.004, 0.006, 0.55);
+  blend_over();
+  // Drawn a little before the faces they bound; the depth stays that of the faces.
+  glDepthMask(GL_FALSE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  glEnable(GL_POLYGON_OFFSET_LINE);
+  glPolygonOffset(-1.0F, -4.0F);
+  for (const PieceView& piece : pieces) {
+    set_lens(wires_, piece.eye, piece.cut);
+    piece.blocks->draw([](int) {});
+  }
+  glDisable(GL_POLYGON_OFFSET_LINE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
 }
 
 }  // namespace argil::viewer

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "argil/core/result.h"
 
@@ -27,6 +28,18 @@ double pixel_mm_at(const EyeView& eye, const Vec3& place_mm) noexcept;
 /// What a picture cuts away so that its slice is seen: all on the negative side.
 using ClipPlane = std::optional<BoundPlane>;
 
+/// A piece as an eye sees it. Lens and cut are in the piece's own frame, as its blocks are: what
+/// moves is the view, and no block is changed.
+struct PieceView {
+  PieceKey piece = 0;
+  const GlBlocks* blocks = nullptr;  ///< null: it has none yet
+  EyeView eye;
+  ClipPlane cut;
+  std::optional<Vec3> color;
+};
+PieceView view_of_piece(const ShownPiece& piece, const GlBlocks* blocks, const EyeView& eye,
+                        const ClipPlane& cut);
+
 /// The planes that bound what an eye sees in a part of its picture.
 std::vector<BoundPlane> bounds_of(const EyeView& eye, const PixelRect& area, const ClipPlane& cut);
 
@@ -39,10 +52,13 @@ class GlClay {
  public:
   static Result<GlClay> make(ObjectCount& count);
 
-  void draw(const GlBlocks& blocks, const Picture& picture, const EyeView& eye,
-            const ClipPlane& cut) const;
+  /// What each has chosen (GlBlocks::choose). `is_behind`: they do not cover what is drawn already
+  /// where both lie at the same depth.
+  void draw(std::span<const PieceView> pieces, const Picture& picture, bool is_behind) const;
 
  private:
+  void draw_wires(std::span<const PieceView> pieces) const;
+
   std::array<GlProgram, 4> shadings_;
   GlProgram wires_;
 };

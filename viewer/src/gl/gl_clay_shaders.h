@@ -41,6 +41,7 @@ in vec3 eye_normal;
 in float masked_fraction;
 uniform vec4 ray;  // scale and offset from a pixel to its ray's slope; zero in a parallel lens
 uniform vec3 level_color;
+uniform vec3 base_color;  // of the clay, or of the piece where it has its own
 out vec4 picture;
 
 const vec3 kKeyLight = normalize(vec3(-0.48, 0.66, 0.58));
@@ -54,16 +55,15 @@ vec4 shade(vec3 n, vec3 toward) {
   // The normal as seen along this pixel's ray, so that a ball looks the same off the centre.
   vec3 x = normalize(cross(vec3(0.0, 1.0, 0.0), toward));
   vec3 m = vec3(dot(n, x), dot(n, cross(toward, x)), dot(n, toward));
-  const vec3 clay = vec3(0.52, 0.225, 0.128);
   float key = dot(m, kKeyLight);
   float lit = clamp((key + 0.22) / 1.22, 0.0, 1.0);
   float sky = 0.5 + 0.5 * m.y;
   vec3 light = 1.12 * lit * lit * vec3(1.0, 0.955, 0.885);
   light += mix(vec3(0.070, 0.048, 0.044), vec3(0.175, 0.180, 0.200), sky);
   light += 0.17 * max(dot(m, kFillLight), 0.0) * vec3(0.66, 0.84, 1.0);
-  vec3 color = clay * light;
+  vec3 color = base_color * light;
   float fading = smoothstep(-0.35, 0.10, key) * (1.0 - smoothstep(0.10, 0.65, key));
-  color += fading * vec3(0.040, 0.006, 0.001);
+  color += fading * base_color * vec3(0.0769, 0.0267, 0.0078);
   vec3 between = normalize(kKeyLight + vec3(0.0, 0.0, 1.0));
   float sheen = max(dot(m, between), 0.0);
   // Its 16th and 64th power: pow is dear where shaders run on the processor.
@@ -84,11 +84,10 @@ vec4 shade(vec3 n, vec3 toward) {
 
 inline constexpr const char* kPlainShade = R"(
 vec4 shade(vec3 n, vec3 toward) {
-  const vec3 chalk = vec3(0.60, 0.585, 0.56);
   vec3 light = 0.84 * max(dot(n, kKeyLight), 0.0) * vec3(1.0, 0.98, 0.95);
   light += 0.14 * max(dot(n, kFillLight), 0.0) * vec3(0.85, 0.93, 1.0);
   light += mix(0.10, 0.26, 0.5 + 0.5 * n.y);
-  return vec4(chalk * light, 1.0);
+  return vec4(base_color * light, 1.0);
 }
 )";
 

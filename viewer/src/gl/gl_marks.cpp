@@ -19,6 +19,9 @@ constexpr double kHaloAlpha = 0.35;
 /// How much is seen of what lies behind clay.
 constexpr double kHiddenRing = 0.34;
 constexpr double kHiddenPlane = 0.15;
+constexpr double kHandleHalfPixels = 1.6;
+constexpr double kHandleHaloPixels = 2.9;
+constexpr double kHandleFill = 0.45;
 constexpr double kPlaneAlpha = 0.16;
 constexpr double kPatchAlpha = 0.30;
 constexpr double kFaint = 0.5;  // a frame without a fill, of its colour
@@ -95,6 +98,7 @@ void GlMarks::draw(const Picture& picture, const EyeView& eye, const GlTargets& 
   if (!picture.planes.empty()) draw_planes(picture, eye);
   if (!picture.rings.empty() || !picture.lines.empty()) draw_rings(picture, eye);
   if (!picture.arrows.empty()) draw_arrows(picture, eye);
+  if (!picture.handles.empty()) draw_handles(picture, eye);
   glDisable(GL_DEPTH_TEST);
   if (!picture.pins.empty()) draw_pins(picture, eye, targets);
   glDepthMask(GL_TRUE);
@@ -167,6 +171,32 @@ void GlMarks::draw_arrows(const Picture& picture, const EyeView& eye) const {
   glDisable(GL_DEPTH_TEST);
   set_eye(solids_, eye);
   solid_stream_.draw<SolidVertex>(GL_TRIANGLES, solids);
+}
+
+void GlMarks::draw_handles(const Picture& picture, const EyeView& eye) const {
+  std::vector<SolidVertex> fills;
+  std::vector<LineVertex> edges;
+  for (const HandleMark& handle : picture.handles) {
+    if (handle.is_filled) {
+      add_fill(fills, handle.points_mm, handle.color, kHandleFill);
+      add_loop(edges, handle.points_mm, handle.color);
+    } else {
+      add_line(edges, handle.points_mm, handle.color);
+    }
+  }
+  glDisable(GL_DEPTH_TEST);
+  if (!fills.empty()) {
+    set_eye(solids_, eye);
+    solid_stream_.draw<SolidVertex>(GL_TRIANGLES, fills);
+  }
+  set_eye(lines_, eye);
+  send(line_stream_, edges);
+  lines_.set("half_width", kHandleHaloPixels);
+  lines_.set("tint", 0.0, 0.0, 0.0, kHaloAlpha);
+  line_stream_.draw_sent(GL_TRIANGLES, count_of(edges));
+  lines_.set("half_width", kHandleHalfPixels);
+  lines_.set("tint", 1.0, 1.0, 1.0, 1.0);
+  line_stream_.draw_sent(GL_TRIANGLES, count_of(edges));
 }
 
 void GlMarks::draw_pins(const Picture& picture, const EyeView& eye,

@@ -22,6 +22,7 @@ class GlMarks {
   void draw_planes(const Picture& picture, const EyeView& eye) const;
   void draw_rings(const Picture& picture, const EyeView& eye) const;
   void draw_arrows(const Picture& picture, const EyeView& eye) const;
+  void draw_handles(const Picture& picture, const EyeView& eye) const;
   void draw_pins(const Picture& picture, const EyeView& eye, const GlTargets& targets) const;
 
   GlProgram lines_;

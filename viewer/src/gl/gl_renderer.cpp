@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A picture is drawn into targets of the renderer's own and then copied to where it is shown, so
 // that it can be shown again below other panels without being drawn. For each eye, in this order:
-// the background; the clay, whose depth is then kept; occlusion or curvature, worked out from that
-// depth; the slice. This is the clay's layer, which stays as long as neither the lens nor the
-// shading changes; where blocks change, the parts of it that show them are drawn anew. The picture
-// is a copy of it with the marks.
+// the background; the active piece, then the others, whose depth is then kept; occlusion or
+// curvature, worked out from that depth; the slice. This is the clay's layer, which stays as long
+// as neither the lens nor the shading changes; where blocks change, the parts of it that show them
+// are drawn anew. The picture is a copy of it with the marks.
 #include "gl/gl_renderer.h"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include <epoxy/gl.h>
@@ -75,9 +76,9 @@ bool is_drawable(const std::optional<SlicePicture>& slice) {
 
 /// Whether two pictures differ in their marks alone.
 bool have_same_clay(const Picture& a, const Picture& b) {
-  return a.lens == b.lens && a.right_lens == b.right_lens && a.shading == b.shading &&
-         a.has_wires == b.has_wires && a.has_occlusion == b.has_occlusion &&
-         a.is_moving == b.is_moving && a.slice == b.slice;
+  return a.lens == b.lens && a.right_lens == b.right_lens && a.pieces == b.pieces &&
+         a.shading == b.shading && a.has_wires == b.has_wires &&
+         a.has_occlusion == b.has_occlusion && a.is_moving == b.is_moving && a.slice == b.slice;
 }
 
 /// Whether a pixel of the clay shows what is around it.
@@ -112,24 +113,39 @@ class GlRenderer final : public Renderer {
       : debug_(std::move(debug)),
         count_(std::move(count)),
         passes_(std::move(passes)),
-        blocks_(*count_, options.has_coarse),
+        has_coarse_(options.has_coarse),
         targets_(*count_, options.samples) {
     assert(options.samples >= 0);
   }
 
-  Result<void> put(const BlockMesh& block) override {
-    touch(block.id);
-    touched_.add(block.bounds_mm);
-    return blocks_.put(block);
+  Result<void> put(PieceKey piece, const BlockMesh& block) override {
+    const auto [known, is_new] = pieces_.try_emplace(piece, *count_, has_coarse_);
+    // The first of others: from now on the active piece's own depth is kept, all of it.
+    if (is_new) touched_.add_all();
+    GlBlocks& blocks = known->second;
+    touch(piece, blocks, block.id);
+    touched_.add(piece, block.bounds_mm);
+    return blocks.put(block);
   }
-  void drop(const BlockId& id) override {
-    touch(id);
-    blocks_.drop(id);
+  void drop(PieceKey piece, const BlockId& id) override {
+    const auto known = pieces_.find(piece);
+    if (known == pieces_.end()) return;
+    touch(piece, known->second, id);
+    known->second.drop(id);
+  }
+  void drop(PieceKey piece) override {
+    const auto known = pieces_.find(piece);
+    if (known == pieces_.end()) return;
+    dropped_bytes_ += known->second.uploaded_bytes();
+    pieces_.erase(known);
+    drawn_.reset();
+    touched_.add_all();
   }
   void clear() override {
     drawn_.reset();
     touched_.add_all();
-    blocks_.clear();
+    for (const auto& [piece, blocks] : pieces_) dropped_bytes_ += blocks.uploaded_bytes();
+    pieces_.clear();
   }
   Result<void> draw(const Picture& picture, unsigned framebuffer, int width, int height) override;
   bool holds(const Picture& picture, int width, int height) const override;
@@ -139,7 +155,11 @@ class GlRenderer final : public Renderer {
   std::string last_error() const override { return debug_->last_error(); }
 
  private:
-  void touch(const BlockId& id);
+  void touch(PieceKey piece, const GlBlocks& blocks, const BlockId& id);
+  std::vector<PieceView> views_of(const Picture& picture, const EyeView& eye, const ClipPlane& cut,
+                                  bool is_active) const;
+  Result<void> draw_pieces(const Picture& picture, const EyeView& eye, const PixelRect& area,
+                           const ClipPlane& cut);
   Result<void> draw_picture(const Picture& picture, int width, int height);
   Result<void> draw_clay(const Picture& picture);
   Result<void> draw_area(const Picture& picture, const EyeView& eye, const PixelRect& area);
@@ -148,7 +168,8 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<GlDebug> debug_;
   std::unique_ptr<ObjectCount> count_;  ///< before all that it counts
   Passes passes_;
-  GlBlocks blocks_;
+  std::map<PieceKey, GlBlocks> pieces_;
+  bool has_coarse_;
   GlTargets targets_;
   std::optional<Picture> drawn_;  ///< what the targets hold; none: not the blocks as they are now
   std::optional<Picture> drawn_clay_;  ///< what the clay's layer holds, up to what was touched
@@ -157,6 +178,7 @@ class GlRenderer final : public Renderer {
   std::int64_t drawn_pictures_ = 0;
   std::int64_t whole_pictures_ = 0;
   std::int64_t drawn_triangles_ = 0;
+  std::int64_t dropped_bytes_ = 0;  ///< uploaded for pieces that are gone
 };
 
 Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int width, int height) {
@@ -181,9 +203,21 @@ Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int 
 }
 
 /// The place of a block in the picture is to be drawn anew.
-void GlRenderer::touch(const BlockId& id) {
+void GlRenderer::touch(PieceKey piece, const GlBlocks& blocks, const BlockId& id) {
   drawn_.reset();
-  if (const auto former = blocks_.bounds_of(id)) touched_.add(*former);
+  if (const auto former = blocks.bounds_of(id)) touched_.add(piece, *former);
+}
+
+/// The active piece, or those that are not; only pieces that have blocks.
+std::vector<PieceView> GlRenderer::views_of(const Picture& picture, const EyeView& eye,
+                                            const ClipPlane& cut, bool is_active) const {
+  std::vector<PieceView> views;
+  for (const ShownPiece& piece : picture.pieces) {
+    const auto known = pieces_.find(piece.piece);
+    if (piece.is_active != is_active || known == pieces_.end()) continue;
+    views.push_back(view_of_piece(piece, &known->second, eye, cut));
+  }
+  return views;
 }
 
 Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int height) {
@@ -213,7 +247,9 @@ Result<void> GlRenderer::draw_clay(const Picture& picture) {
   drawn_triangles_ = 0;
   bool is_whole = true;
   for (const EyeView& eye : drawn_eyes_) {
-    for (const PixelRect& area : touched_.areas_in(eye)) {
+    std::vector<PieceView> seen = views_of(picture, eye, {}, true);
+    for (PieceView& other : views_of(picture, eye, {}, false)) seen.push_back(std::move(other));
+    for (const PixelRect& area : touched_.areas_in(eye, seen)) {
       is_whole = is_whole && area == eye.part;
       if (auto drawn = draw_area(picture, eye, area); !drawn) return drawn;
     }
@@ -242,13 +278,14 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
   passes_.background.use();
   glBindVertexArray(passes_.nothing.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
 
   const bool has_slice = is_drawable(picture.slice);
   const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
-  // A cut shows the inside, which looks away.
-  drawn_triangles_ += blocks_.choose(
-      {bounds_of(eye, area, cut), has_slice ? nullptr : &eye.lens, picture.is_moving});
-  passes_.clay.draw(blocks_, picture, eye, cut);
+  if (auto drawn = draw_pieces(picture, eye, area, cut); !drawn) {
+    glDisable(GL_SCISSOR_TEST);
+    return drawn;
+  }
   // Kept before the slice is drawn: strokes and occlusion are about the clay alone.
   targets_.keep_depth(area);
   glBindVertexArray(passes_.nothing.name());
@@ -261,6 +298,27 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
   targets_.bind_clay();
   if (has_slice) passes_.slice.draw(*picture.slice, eye);
   glDisable(GL_SCISSOR_TEST);
+  return {};
+}
+
+/// The active piece first, so that its depth alone can be kept where there are others.
+Result<void> GlRenderer::draw_pieces(const Picture& picture, const EyeView& eye,
+                                     const PixelRect& area, const ClipPlane& cut) {
+  const auto draw = [&](const std::vector<PieceView>& views, bool is_behind) {
+    for (const PieceView& view : views) {
+      // A cut shows the inside, which looks away.
+      const BlockChoice choice{bounds_of(view.eye, area, view.cut), cut ? nullptr : &view.eye.lens,
+                               picture.is_moving};
+      drawn_triangles_ += pieces_.at(view.piece).choose(choice);
+    }
+    passes_.clay.draw(views, picture, is_behind);
+  };
+  draw(views_of(picture, eye, cut, true), false);
+  const std::vector<PieceView> others = views_of(picture, eye, cut, false);
+  if (others.empty()) return {};
+  if (auto kept = targets_.keep_active_depth(area); !kept) return kept;
+  targets_.bind_clay();
+  draw(others, true);
   return {};
 }
 
@@ -277,6 +335,13 @@ DepthMap GlRenderer::read_depth(std::size_t eye) {
   map.width = drawn.part.width;
   map.height = drawn.part.height;
   map.depth_mm = targets_.read_depth(drawn.part);
+  if (drawn_clay_ && !views_of(*drawn_clay_, drawn, {}, false).empty()) {
+    const std::vector<float> active = targets_.read_active_depth(drawn.part);
+    map.is_other.reserve(active.size());
+    for (std::size_t n = 0; n < active.size(); ++n) {
+      map.is_other.push_back(map.depth_mm[n] < active[n] ? 1 : 0);
+    }
+  }
   // From the depth buffer's 0 to 1 back to mm: the inverse of Lens::projection.
   const double near = drawn.lens.near_mm;
   const double far = drawn.lens.far_mm;
@@ -317,11 +382,14 @@ RendererCounts GlRenderer::counts() const {
   RendererCounts counts;
   counts.pictures = drawn_pictures_;
   counts.whole_pictures = whole_pictures_;
-  counts.blocks = blocks_.blocks();
-  counts.triangles = blocks_.triangles();
   counts.drawn_triangles = drawn_triangles_;
-  counts.uploaded_bytes = blocks_.uploaded_bytes();
-  counts.memory_bytes = blocks_.memory_bytes();
+  counts.uploaded_bytes = dropped_bytes_;
+  for (const auto& [piece, blocks] : pieces_) {
+    counts.blocks += blocks.blocks();
+    counts.triangles += blocks.triangles();
+    counts.uploaded_bytes += blocks.uploaded_bytes();
+    counts.memory_bytes += blocks.memory_bytes();
+  }
   counts.objects = count_->here();
   counts.errors = debug_->errors();
   return counts;

@@ -19,6 +19,15 @@ void store(const GlRenderbuffer& buffer, int samples, GLenum format, int width, 
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
 }
 
+/// A texture for depth, bound.
+void store_depth(const GlTexture& texture, int width, int height) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
+               GL_FLOAT, nullptr);
+  set_texture(GL_NEAREST);
+}
+
 void attach_buffer(GLenum attachment, const GlRenderbuffer& buffer) {
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer.name());
 }
@@ -46,6 +55,8 @@ Result<void> GlTargets::resize(int width, int height) {
   if (width == width_ && height == height_) return {};
   width_ = 0;
   height_ = 0;
+  active_ = {};
+  active_texture_ = {};
   if (auto made = make_layers(width, height); !made) return made;
   if (auto made = make_kept(width, height); !made) return made;
   width_ = width;
@@ -76,11 +87,7 @@ Result<void> GlTargets::make_kept(int width, int height) {
   kept_ = GlFramebuffer(count_);
   depth_texture_ = GlTexture(count_);
   color_texture_ = GlTexture(count_);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, depth_texture_.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
-               GL_FLOAT, nullptr);
-  set_texture(GL_NEAREST);
+  store_depth(depth_texture_, width, height);
   glBindTexture(GL_TEXTURE_2D, color_texture_.name());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   set_texture(GL_NEAREST);
@@ -100,12 +107,34 @@ void GlTargets::begin_picture() const {
   glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
 }
 
-void GlTargets::keep_depth(const PixelRect& part) const {
+void GlTargets::keep_depth(const PixelRect& part) const { copy_depth(kept_, part); }
+
+Result<void> GlTargets::keep_active_depth(const PixelRect& part) {
+  if (!active_.is_there()) {
+    active_ = GlFramebuffer(count_);
+    active_texture_ = GlTexture(count_);
+    store_depth(active_texture_, width_, height_);
+    glBindTexture(GL_TEXTURE_2D, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, active_.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D,
+                           active_texture_.name(), 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    if (auto made = check_framebuffer(width_, height_, 0); !made) {
+      active_ = {};
+      return made;
+    }
+  }
+  copy_depth(active_, part);
+  return {};
+}
+
+void GlTargets::copy_depth(const GlFramebuffer& to, const PixelRect& part) const {
   const int right = part.x + part.width;
   const int top = part.y + part.height;
   assert(part.x >= 0 && part.y >= 0 && right <= width_ && top <= height_);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, clay_.name());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, kept_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to.name());
   glBlitFramebuffer(part.x, part.y, right, top, part.x, part.y, right, top, GL_DEPTH_BUFFER_BIT,
                     GL_NEAREST);
 }
@@ -125,7 +154,7 @@ void GlTargets::show(unsigned framebuffer) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
-std::vector<float> GlTargets::read_depth(const PixelRect& part) const {
+std::vector<float> GlTargets::read_from(const GlFramebuffer& kept, const PixelRect& part) const {
   assert(part.x >= 0 && part.y >= 0 && part.x + part.width <= width_ &&
          part.y + part.height <= height_);
   const auto row = static_cast<std::size_t>(part.width);
@@ -133,7 +162,7 @@ std::vector<float> GlTargets::read_depth(const PixelRect& part) const {
   // Read between frames, by strokes that begin: what is bound stays so.
   GLint bound = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept_.name());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, kept.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(part.x, part.y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
   glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(bound));

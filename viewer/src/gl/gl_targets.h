@@ -43,6 +43,8 @@ class GlTargets {
   /// Copies the depth of a part of the clay's layer into the texture.
   void keep_depth(const PixelRect& part) const;
   unsigned kept_depth() const noexcept { return depth_texture_.name(); }
+  /// The same for the active piece alone, before others are drawn. Errors  as check_framebuffer.
+  Result<void> keep_active_depth(const PixelRect& part);
   /// Copies the colour of the clay's layer into the other texture, with one sample a pixel.
   void keep_color() const;
   unsigned kept_color() const noexcept { return color_texture_.name(); }
@@ -50,7 +52,11 @@ class GlTargets {
   void show(unsigned framebuffer) const;
 
   /// The kept depth, 0 to 1, of a part; rows from the top. Waits for the graphics card.
-  std::vector<float> read_depth(const PixelRect& part) const;
+  std::vector<float> read_depth(const PixelRect& part) const { return read_from(kept_, part); }
+  /// As last kept of the active piece.
+  std::vector<float> read_active_depth(const PixelRect& part) const {
+    return read_from(active_, part);
+  }
 
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
@@ -59,6 +65,8 @@ class GlTargets {
   Result<void> make_layers(int width, int height);
   void copy_color(const GlFramebuffer& from, unsigned to) const;
   Result<void> make_kept(int width, int height);
+  void copy_depth(const GlFramebuffer& to, const PixelRect& part) const;
+  std::vector<float> read_from(const GlFramebuffer& kept, const PixelRect& part) const;
 
   ObjectCount& count_;
   int samples_;
@@ -72,6 +80,8 @@ class GlTargets {
   GlFramebuffer kept_;    ///< of the textures
   GlTexture depth_texture_;
   GlTexture color_texture_;
+  GlFramebuffer active_;  ///< with one depth; made when it is needed
+  GlTexture active_texture_;
 };
 
 }  // namespace argil::viewer

@@ -40,21 +40,31 @@ void add_area(const PixelRect& area, std::vector<PixelRect>& areas) {
 
 }  // namespace
 
-void Touched::add(const Box3& box_mm) {
-  if (boxes_mm_.size() >= kMostBoxes) is_all_ = true;
-  if (!is_all_) boxes_mm_.push_back(box_mm);
+void Touched::add(PieceKey piece, const Box3& box_mm) {
+  if (boxes_.size() >= kMostBoxes) is_all_ = true;
+  if (!is_all_) boxes_.push_back({piece, box_mm});
 }
 
 void Touched::clear() noexcept {
-  boxes_mm_.clear();
+  boxes_.clear();
   is_all_ = false;
 }
 
-std::vector<PixelRect> Touched::areas_in(const EyeView& eye) const {
+std::vector<PixelRect> Touched::areas_in(const EyeView& eye,
+                                         std::span<const PieceView> pieces) const {
   if (is_all_) return {eye.part};
   std::vector<PixelRect> areas;
-  for (const Box3& box : boxes_mm_) {
-    const PixelRect area = area_of(eye, box);
+  const PieceView* view = nullptr;
+  for (const auto& [piece, box] : boxes_) {
+    // Boxes of a piece follow each other.
+    if (view == nullptr || view->piece != piece) {
+      const auto found =
+          std::find_if(pieces.begin(), pieces.end(),
+                       [key = piece](const auto& other) { return other.piece == key; });
+      view = found == pieces.end() ? nullptr : &*found;
+    }
+    if (view == nullptr) continue;
+    const PixelRect area = area_of(view->eye, box);
     if (!area.empty()) add_area(area, areas);
   }
   std::int64_t pixels = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "argil/core/triangle_mesh.h"
@@ -19,17 +20,22 @@ class Touched {
   /// A picture has at most so many parts; a stroke with its mirror images has as many as images.
   static constexpr std::size_t kMostAreas = 8;
 
-  void add(const Box3& box_mm);
+  /// A box in the piece's own frame.
+  void add(PieceKey piece, const Box3& box_mm);
   void add_all() noexcept { is_all_ = true; }
   void clear() noexcept;
-  bool empty() const noexcept { return !is_all_ && boxes_mm_.empty(); }
+  bool empty() const noexcept { return !is_all_ && boxes_.empty(); }
 
   /// These parts in an eye's picture, which may overlap: together less than half of it, or the one
-  /// that is all of it.
-  std::vector<PixelRect> areas_in(const EyeView& eye) const;
+  /// that is all of it. `pieces`: as that eye sees them; of others nothing is seen.
+  std::vector<PixelRect> areas_in(const EyeView& eye, std::span<const PieceView> pieces) const;
 
  private:
-  std::vector<Box3> boxes_mm_;
+  struct Place {
+    PieceKey piece = 0;
+    Box3 box_mm;
+  };
+  std::vector<Place> boxes_;
   bool is_all_ = false;
 };
 

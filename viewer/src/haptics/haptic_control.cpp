@@ -49,6 +49,11 @@ bool are_same(const Brush& a, const Brush& b) noexcept {
          a.radial.count == b.radial.count && a.radial.axis == b.radial.axis;
 }
 
+std::optional<PieceKey> active_key(const ClayState& clay) {
+  if (!clay.pieces) return std::nullopt;
+  return clay.pieces->active_piece().key;
+}
+
 }  // namespace
 
 HapticControl::HapticControl(UiState& ui, DocumentThread& document, haptics::FalconOptions falcon)
@@ -113,7 +118,8 @@ double HapticControl::most_surface_force_n() const {
 
 bool HapticControl::is_as_wanted() const {
   return running_ == ui_.haptics && firmware_ == ui_.firmware && are_same(brush_, ui_.brush) &&
-         radius_mm_ == radius_on(ui_.brush, 1.0) && clay_ == ui_.clay.file;
+         radius_mm_ == radius_on(ui_.brush, 1.0) && clay_ == ui_.clay.file &&
+         piece_ == active_key(ui_.clay);
 }
 
 Result<void> HapticControl::start(double now_s) {
@@ -124,6 +130,7 @@ Result<void> HapticControl::start(double now_s) {
   brush_ = ui_.brush;
   radius_mm_ = radius_on(ui_.brush, 1.0);
   clay_ = ui_.clay.file;
+  piece_ = active_key(ui_.clay);
   last_hit_.reset();
   // Noted before it starts: what cannot be started is not tried again until something changes.
   if (auto started = rig_.start(wanted_options()); !started) {

@@ -58,6 +58,7 @@ class HapticControl {
   std::filesystem::path firmware_;  ///< of what runs, as brush_ and clay_
   Brush brush_;                     ///< of what runs
   double radius_mm_ = 0.0;
+  std::optional<PieceKey> piece_;
   std::filesystem::path clay_;
   std::filesystem::path recording_;
   double tried_s_ = -1.0;

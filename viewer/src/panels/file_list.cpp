@@ -67,6 +67,8 @@ const char* title_of(FileWish wish) {
       return "Firmware of the Falcon";
     case FileWish::path:
       return "Path of the guidance";
+    case FileWish::import_piece:
+      return "Add a mesh as a piece";
     case FileWish::import_mesh:
     case FileWish::none:  // is never shown
       break;
@@ -75,14 +77,15 @@ const char* title_of(FileWish wish) {
 }
 
 const char* verb_of(FileWish wish) {
-  return wish == FileWish::open          ? "Open it"
-         : wish == FileWish::import_mesh ? "Import it"
-         : wish == FileWish::stamp       ? "Stamp with it"
-         : wish == FileWish::alpha       ? "Emboss it"
-         : wish == FileWish::firmware    ? "Send it"
-         : wish == FileWish::path        ? "Follow it"
-         : wish == FileWish::save_as     ? "Save there"
-                                         : "Export there";
+  return wish == FileWish::open           ? "Open it"
+         : wish == FileWish::import_mesh  ? "Import it"
+         : wish == FileWish::import_piece ? "Add it"
+         : wish == FileWish::stamp        ? "Stamp with it"
+         : wish == FileWish::alpha        ? "Emboss it"
+         : wish == FileWish::firmware     ? "Send it"
+         : wish == FileWish::path         ? "Follow it"
+         : wish == FileWish::save_as      ? "Save there"
+                                          : "Export there";
 }
 
 /// A thousand points at most: read at once.
@@ -231,6 +234,8 @@ void FileList::take(fs::path file, UiState& ui, DocumentThread& document) {
   ui.file_wish = FileWish::none;
   if (wish_ == FileWish::open || wish_ == FileWish::import_mesh) {
     open_file(file, ui, document);
+  } else if (wish_ == FileWish::import_piece) {
+    document.send(ImportPiece{file});
   } else if (wish_ == FileWish::stamp) {
     document.send(LoadStamp{file});
   } else if (wish_ == FileWish::alpha) {

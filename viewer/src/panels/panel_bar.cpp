@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSweepS = 1.5;  // of a bar that only says that something goes on
 
-constexpr const char* kMenus[] = {"File", "Edit", "Brush", "Mask", "View", "Device", "Help"};
+constexpr const char* kMenus[] = {"File", "Edit", "Piece",  "Brush",
+                                  "Mask", "View", "Device", "Help"};
 
 /// Whether the menu shows a tick beside a command.
 bool is_on(Command command, const UiState& ui) {
@@ -41,6 +42,10 @@ bool is_on(Command command, const UiState& ui) {
       return ui.panels.has_tools;
     case Command::history:
       return ui.panels.has_history;
+    case Command::pieces:
+      return ui.panels.has_pieces;
+    case Command::piece_gizmo:
+      return ui.pieces.has_gizmo;
     case Command::messages:
       return ui.panels.has_messages;
     case Command::help:
@@ -159,13 +164,16 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   const ClayState& clay = ui.clay;
   if (clay.has_clay) {
     // Triangles are the renderer's: as many as are shown at this distance.
-    char text[256];
+    char text[320];
+    const bool has_others = clay.pieces && clay.pieces->pieces.size() > 1;
+    const std::string piece = has_others ? "   |   " + clay.pieces->active_piece().look.name : "";
     std::snprintf(text, sizeof text,
-                  "%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
+                  "%s%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
                   "frame %.0f ms   |   undo %d",
                   clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
-                  clay.is_changed ? " *" : "", grouped(frame.counts.triangles).c_str(),
-                  clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
+                  clay.is_changed ? " *" : "", piece.c_str(),
+                  grouped(frame.counts.triangles).c_str(), clay.voxel_mm, clay.last_dab_ms,
+                  frame.frame_ms, clay.undo_depth);
     ImGui::TextUnformatted(text);
     if (frame.latency_ms) {
       ImGui::SameLine(0.0F, 0.0F);
@@ -201,7 +209,11 @@ void draw_task(const UiState& ui, DocumentThread& document) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * screen.x, 0.12F * screen.y}, ImGuiCond_Always, {0.5F, 0.0F});
   ImGui::SetNextWindowSize({360.0F * unit(), 0.0F});
-  ImGui::Begin("##task", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings);
+  // Without focus: it may appear in the frame in which a dialog does, and Dear ImGui 1.86 takes no
+  // window then that wants it.
+  ImGui::Begin("##task", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::TextUnformatted(ui.task.name.c_str());
   if (ui.task.has_progress) {
     ImGui::ProgressBar(static_cast<float>(ui.task.fraction), {-1.0F, 0.0F});
@@ -230,12 +242,14 @@ void draw_mouse_keys() {
   draw_key("sculpt", "Left");
   draw_key("the opposite", "Ctrl+Left");
   draw_key("smooth", "Shift+Left");
+  draw_key("mask by a lasso", "Ctrl+Shift+Left");
   draw_key("turn", "Right");
   draw_key("turn", "Alt+Left");
   draw_key("turn", "Left beside it");
   draw_key("move", "Middle");
   draw_key("move", "Shift+Right");
   draw_key("nearer, farther", "Wheel");
+  draw_key("sculpt another piece", "Double click");
   draw_key("take a stroke back", "Esc");
   draw_key("clutch of the device", "V (held)");
   draw_key("close a dialog", "Esc");
@@ -274,7 +288,8 @@ void draw_help(UiState& ui) {
     ImGui::TableNextColumn();
     draw_mouse_keys();
     ImGui::TableNextColumn();
-    for (const char* menu : {"File", "Edit", "Mask", "Device", "Help"}) draw_menu_keys(menu);
+    for (const char* menu : {"File", "Edit", "Piece", "Mask", "Device", "Help"})
+      draw_menu_keys(menu);
     ImGui::TableNextColumn();
     for (const char* menu : {"View", "Brush"}) draw_menu_keys(menu);
     ImGui::EndTable();

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "base/text.h"
+#include "commands/piece_gestures.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"
@@ -84,7 +85,8 @@ void draw_verdict(UiState& ui) {
     std::snprintf(text, sizeof text, "%s at %.1f, %.1f, %.1f##%d", problem.kind.c_str(),
                   problem.at_mm.x, problem.at_mm.y, problem.at_mm.z, n);
     // Looks there.
-    if (choice(text, false)) ui.camera.set_target(problem.at_mm);
+    const auto judged = judged_placement(ui);
+    if (choice(text, false) && judged) ui.camera.set_target(placed(*judged, problem.at_mm));
   }
 }
 

@@ -176,6 +176,18 @@ void draw_symmetry(Brush& brush) {
   if (pick_one("Axis", axis, {"x", "y", "z"})) brush.radial.axis = static_cast<std::size_t>(axis);
 }
 
+/// Whether the tool paints or cuts as a brush, or by an outline that is drawn over the picture.
+void draw_drag_form(UiState& ui) {
+  const bool is_mask = is_painted(ui.brush.action);
+  if (!is_mask && ui.brush.action != Action::trim) return;
+  DragForm& form = is_mask ? ui.outlines.mask : ui.outlines.trim;
+  std::vector<std::string> names{"Brush", "Lasso", "Box"};
+  if (!is_mask) names.emplace_back("Line");
+  int at = static_cast<int>(form);
+  if (pick_one("Drawn by", at, names)) form = static_cast<DragForm>(at);
+  if (is_mask && form != DragForm::brush) check("Front faces only", ui.outlines.front_only);
+}
+
 /// The mask's edits of the menu, where the mask is painted.
 void draw_mask_edits(UiState& ui, DocumentThread& document) {
   for (const Command command :
@@ -252,6 +264,7 @@ void draw_brush(UiState& ui, DocumentThread& document) {
   }
   draw_falloff(brush);
   draw_tool_options(ui);
+  draw_drag_form(ui);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");

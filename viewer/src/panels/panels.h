@@ -24,6 +24,7 @@ struct FrameState {
 
 // Each draws from the state and writes choices into it. What they do goes through commands and
 // requests.
+void draw_outline(const UiState& ui);
 void draw_menu(UiState& ui, DocumentThread& document);
 void draw_tools(UiState& ui);
 void draw_brush(UiState& ui, DocumentThread& document);
@@ -32,6 +33,8 @@ void draw_info(UiState& ui);
 void draw_history(UiState& ui, DocumentThread& document);
 void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document);
 void draw_print(UiState& ui, DocumentThread& document);
+void draw_pieces(UiState& ui, DocumentThread& document);
+void draw_switch_hint(const UiState& ui);
 void draw_help(UiState& ui);
 void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
@@ -40,6 +43,7 @@ void draw_messages(UiState& ui, MessageLog& log);
 void draw_task(const UiState& ui, DocumentThread& document);
 void draw_new_dialog(UiState& ui, DocumentThread& document);
 void draw_operations(UiState& ui, DocumentThread& document);
+void draw_import(UiState& ui, DocumentThread& document);
 void draw_export(UiState& ui);
 void draw_save_question(UiState& ui, DocumentThread& document);
 void draw_left_question(UiState& ui, DocumentThread& document);

@@ -190,6 +190,14 @@ double Camera::pixel_mm_at(const Vec3& point_mm) const noexcept {
   return 2.0 * half_height() * depth / height_;
 }
 
+Camera::Pixel Camera::pixel_of(const Vec3& point_mm) const noexcept {
+  const Vec3 from = point_mm - eye_mm();
+  const double depth = is_parallel_ ? distance_mm_ : std::max(-dot(from, back_), 1e-9);
+  const double over = half_height() * depth;
+  return {0.5 * width_ + 0.5 * height_ * dot(from, right_) / over,
+          0.5 * height_ - 0.5 * height_ * dot(from, up_) / over};
+}
+
 DisplayView Camera::display_view() const noexcept {
   DisplayView view;
   view.eye_mm = eye_mm();

@@ -71,6 +71,9 @@ class Camera {
 
   Ray ray_at(const Pixel& pixel) const noexcept;
   double pixel_mm_at(const Vec3& point_mm) const noexcept;
+  /// Where a point is seen, also outside of the picture; the inverse of ray_at. Of a point behind
+  /// the eye: far away.
+  Pixel pixel_of(const Vec3& point_mm) const noexcept;
   DisplayView display_view() const noexcept;
 
  private:

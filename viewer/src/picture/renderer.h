@@ -12,6 +12,7 @@
 #include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
 #include "argil/engine/display_surface.h"
+#include "argil/engine/operation.h"
 #include "argil/engine/render.h"
 
 #include "picture/camera.h"
@@ -25,6 +26,22 @@ struct BlockMesh {
   std::vector<Triangle> triangles;
   std::vector<std::uint8_t> mask;  ///< 0 (free) to 255 at each vertex; empty: nothing is masked
   Box3 bounds_mm;
+};
+
+/// A piece of a sculpture, by a number that stays with it whatever it is called.
+using PieceKey = std::uint32_t;
+
+/// A piece that a picture shows, where it stands.
+struct ShownPiece {
+  PieceKey piece = 0;
+  Placement placement = {};                  ///< of its blocks; of unit length
+  std::optional<Vec3> color = std::nullopt;  ///< linear; none: clay's own
+  bool is_active = true;  ///< the one that is sculpted: where two have one surface it is seen
+  friend bool operator==(const ShownPiece& a, const ShownPiece& b) {
+    return a.piece == b.piece && a.placement.position_mm == b.placement.position_mm &&
+           a.placement.orientation == b.placement.orientation && a.color == b.color &&
+           a.is_active == b.is_active;
+  }
 };
 
 /// How the clay is shown.
@@ -71,6 +88,14 @@ struct LineMark {
   friend bool operator==(const LineMark&, const LineMark&) = default;
 };
 
+/// A part of a gizmo: a line, closed or open, that nothing hides.
+struct HandleMark {
+  std::vector<Vec3> points_mm;
+  Vec3 color;
+  bool is_filled = false;  ///< convex, and closed
+  friend bool operator==(const HandleMark&, const HandleMark&) = default;
+};
+
 /// Signed distances over a rectangle, drawn as the material's cross-section: a cut through the
 /// clay.
 struct SlicePicture {
@@ -88,6 +113,7 @@ struct Picture {
   Lens lens;
   std::optional<Lens>
       right_lens;  ///< stereo: `lens` for the left half of the frame, this the right
+  std::vector<ShownPiece> pieces{ShownPiece{}};  ///< blocks of others are not drawn
   Shading shading = Shading::matcap;
   bool has_wires = false;     ///< the triangles' edges over the shading
   bool has_occlusion = true;  ///< ambient occlusion (Shading::plain)
@@ -97,6 +123,7 @@ struct Picture {
   std::vector<PlaneMark> planes;
   std::vector<PinMark> pins;
   std::vector<LineMark> lines;
+  std::vector<HandleMark> handles;
   std::optional<SlicePicture> slice;
   friend bool operator==(const Picture&, const Picture&) = default;
 };
@@ -107,6 +134,8 @@ struct DepthMap {
   int width = 0;
   int height = 0;
   std::vector<float> depth_mm;
+  /// 1 where that is another piece than the active one; empty: nowhere.
+  std::vector<std::uint8_t> is_other;
 };
 
 struct RendererCounts {
@@ -133,11 +162,12 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Takes a block, in the place of the one of that name; uploads it and nothing else. Errors
-  /// memory.
-  virtual Result<void> put(const BlockMesh& block) = 0;
-  virtual void drop(const BlockId& id) = 0;
-  virtual void clear() = 0;  ///< drops all blocks
+  /// Takes a block of a piece, in its own frame, in the place of the one of that name; uploads it
+  /// and nothing else. Errors  memory.
+  virtual Result<void> put(PieceKey piece, const BlockMesh& block) = 0;
+  virtual void drop(PieceKey piece, const BlockId& id) = 0;
+  virtual void drop(PieceKey piece) = 0;  ///< all of its blocks
+  virtual void clear() = 0;               ///< drops all blocks
 
   /// Draws into a framebuffer (0: the window) of this size in pixels, and clears it before. A
   /// picture that it holds it only shows again.
@@ -149,8 +179,8 @@ class Renderer {
   /// Whether that picture is the last one drawn, of that size, and no block has changed since.
   virtual bool holds(const Picture& picture, int width, int height) const = 0;
 
-  /// The clay's depth in the last picture, marks left out: of its eye 0 or, in stereo, also 1, the
-  /// right. Empty for an eye that it does not have.
+  /// The depth of the pieces in the last picture, marks left out: of its eye 0 or, in stereo, also
+  /// 1, the right. Empty for an eye that it does not have.
   virtual DepthMap read_depth(std::size_t eye = 0) = 0;
 
   /// What is in a framebuffer now.

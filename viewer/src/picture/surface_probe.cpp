@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -14,6 +15,26 @@ SurfaceProbe::SurfaceProbe(DepthMap depth, const WindowPart& part)
     : depth_(std::move(depth)), part_(part) {
   assert(depth_.depth_mm.size() ==
          static_cast<std::size_t>(depth_.width) * static_cast<std::size_t>(depth_.height));
+  assert(depth_.is_other.empty() || depth_.is_other.size() == depth_.depth_mm.size());
+  // A stroke is about one piece: what covers it is as far away as nothing.
+  for (std::size_t n = 0; n < depth_.is_other.size(); ++n) {
+    if (depth_.is_other[n] != 0) depth_.depth_mm[n] = std::numeric_limits<float>::infinity();
+  }
+}
+
+/// The window's pixels may be fewer than the framebuffer's.
+Camera::Pixel SurfaceProbe::in_picture(const Camera::Pixel& pixel) const {
+  return {part_.inside(pixel).x * depth_.width / part_.camera.width(),
+          pixel.y * depth_.height / part_.camera.height()};
+}
+
+bool SurfaceProbe::is_other_at(const Camera::Pixel& pixel) const {
+  const auto [x, y] = in_picture(pixel);
+  if (depth_.is_other.empty() || !(x >= 0.0 && y >= 0.0 && x < depth_.width && y < depth_.height)) {
+    return false;
+  }
+  return depth_.is_other[static_cast<std::size_t>(y) * static_cast<std::size_t>(depth_.width) +
+                         static_cast<std::size_t>(x)] != 0;
 }
 
 /// The depth interpolated between the four pixels around where they show one surface; across an
@@ -61,10 +82,8 @@ std::optional<Vec3> SurfaceProbe::position_at(double x, double y) const {
 
 std::optional<SurfaceHit> SurfaceProbe::at(const Camera::Pixel& pixel, double radius_mm) const {
   assert(radius_mm >= 0.0);
-  // The window's pixels may be fewer than the framebuffer's.
   const Camera& camera = part_.camera;
-  const double x = part_.inside(pixel).x * depth_.width / camera.width();
-  const double y = pixel.y * depth_.height / camera.height();
+  const auto [x, y] = in_picture(pixel);
   const auto middle = position_at(x, y);
   if (!middle) return std::nullopt;
   const double mm = camera.pixel_mm_at(*middle) * camera.height() / depth_.height;

@@ -27,13 +27,17 @@ class SurfaceProbe {
 
   /// What is seen at a pixel of the window; its normal is the average over a disc of that radius,
   /// so that a brush follows the form and not its grain. Nothing where there is no clay, and
-  /// outside of the part.
+  /// outside of the part, and where another piece is in front of the active one.
   std::optional<SurfaceHit> at(const Camera::Pixel& pixel, double radius_mm) const;
+
+  /// Whether what is seen at a pixel of the window is another piece than the active one.
+  bool is_other_at(const Camera::Pixel& pixel) const;
 
   /// Where it was seen.
   const WindowPart& part() const noexcept { return part_; }
 
  private:
+  Camera::Pixel in_picture(const Camera::Pixel& pixel) const;
   std::optional<double> depth_at(double x, double y) const;
   std::optional<Vec3> position_at(double x, double y) const;
 

@@ -63,6 +63,10 @@ struct PreparedParts {
 Result<PreparedParts> read_prepared_parts(const std::filesystem::path& file,
                                           const MeshPreparation& wanted = {});
 
+/// Names under which parts can be pieces of a sculpture, one for each: cut where they are too long,
+/// numbered where they are none or would be taken.
+std::vector<std::string> piece_names(const std::vector<std::string>& part_names);
+
 /// Whether import_mesh would find room for its estimate at this voxel size. Asked before it, tells
 /// its refusal of a voxel size, which is somebody's number, from memory that ran out under way.
 bool is_likely_to_fit(const PreparedMesh& prepared, double voxel_mm);

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A level may be left out where its surface would miss the true one by less than the tolerance.
+// With voxels of size H the surface is made of chords about H long, and a chord misses an arc by
+// (turn) H / 8. The turn of a surface within a cell of side H is the sum of angle times length over
+// the edges of the mesh there, divided by H, whether that is one sharp edge or a hundred blunt
+// ones: so the sum over 8 is the error. Sums of small cells give those of large ones, and convex
+// and concave edges, as of a scanner's noise, cancel.
+#include "argil/io/import_outlook.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace argil::io {
+namespace {
+
+constexpr double kFinestCells = 512.0;  // along the longest side
+constexpr double kMostSamples = 2e6;    // of the surface
+constexpr std::size_t kMostKept = 4'000'000;
+constexpr int kCellsOfALeaf = 2;            // 4 along each side: two halvings of Morton's order
+constexpr double kVerticesPerSquare = 1.5;  // edges of a lattice that a plane cuts, on average
+constexpr double kLeavesPerSquare = 2.25;   // of their own face: as measured, with the band
+constexpr double kBytesPerLeaf = 2144.0;
+// Of the nodes above leaves in a tree 5-4-3: sides in voxels, and bytes.
+constexpr double kLowerVoxels = 128.0;
+constexpr double kLowerBytes = 34.1e3;
+constexpr double kUpperVoxels = 4096.0;
+constexpr double kUpperBytes = 270.4e3;
+// Fitted to the shared models from 128 to 700 voxels along them. Leaves that a chord's error asks
+// for hold that much more of the surface than their own part, since their neighbours on the surface
+// come with them.
+constexpr double kErrorOfTurn = 1.2 / 8.0;
+constexpr double kWithNeighbours = 1.2;
+
+constexpr double kBandVoxels = 4.0;
+constexpr double kLeastAcross = 16.0;  // voxels of the coarsest level along the longest side
+
+constexpr double square(double x) { return x * x; }
+
+/// What lies in one cell of space.
+struct Cell {
+  std::uint64_t key = 0;  ///< Morton's: that of the cell twice as large is key >> 3
+  double turn = 0.0;      ///< sum of angle times length, convex edges positive
+  double area = 0.0;
+};
+
+std::uint64_t spread(std::uint64_t bits) {
+  assert(bits < (1U << 21));
+  bits = (bits | bits << 32) & 0x1f00000000ffffU;
+  bits = (bits | bits << 16) & 0x1f0000ff0000ffU;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00fU;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3U;
+  return (bits | bits << 2) & 0x1249249249249249U;
+}
+
+/// An edge, named by where its ends are, so that seams of a file do not matter.
+struct Edge {
+  std::array<Vec3, 2> ends;
+  Vec3 normal;  ///< of the triangle, unit
+  Vec3 apex;    ///< its third corner
+};
+
+bool is_before(const Vec3& a, const Vec3& b) {
+  if (a.x != b.x) return a.x < b.x;
+  return a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+/// Collects samples as cells.
+class CellGrid {
+ public:
+  CellGrid(const Vec3& low, double cell) : low_(low), cell_(cell) {}
+
+  void add(const Vec3& at, double turn, double area) {
+    const auto index = [&](double x) {
+      return spread(static_cast<std::uint64_t>(std::clamp(x / cell_, 0.0, 2e6)));
+    };
+    const Vec3 from = at - low_;
+    cells_.push_back({index(from.x) << 2 | index(from.y) << 1 | index(from.z), turn, area});
+    // Far more than cells can be, so that what was joined makes room.
+    if (cells_.size() > kMostKept) join();
+  }
+
+  /// Cells, each once, in the order of their keys.
+  std::vector<Cell> take() {
+    join();
+    return std::move(cells_);
+  }
+
+ private:
+  void join() {
+    std::sort(cells_.begin(), cells_.end(),
+              [](const Cell& a, const Cell& b) { return a.key < b.key; });
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < cells_.size(); ++n) {
+      if (kept > 0 && cells_[kept - 1].key == cells_[n].key) {
+        cells_[kept - 1].turn += cells_[n].turn;
+        cells_[kept - 1].area += cells_[n].area;
+      } else {
+        cells_[kept++] = cells_[n];
+      }
+    }
+    cells_.resize(kept);
+  }
+
+  Vec3 low_;
+  double cell_;
+  std::vector<Cell> cells_;
+};
+
+/// Points spread over a triangle, at most a cell's half apart, each with its share of the area.
+void add_area(const std::array<Vec3, 3>& t, double cell, CellGrid& grid) {
+  const Vec3 u = t[1] - t[0];
+  const Vec3 v = t[2] - t[0];
+  const double longest = std::max({length(u), length(v), length(t[2] - t[1])});
+  const int n = std::max(1, static_cast<int>(std::ceil(1.5 * longest / cell)));
+  const double share = 0.5 * length(cross(u, v)) / (static_cast<double>(n) * n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      grid.add(t[0] + ((i + 1.0 / 3) / n) * u + ((j + 1.0 / 3) / n) * v, 0.0, share);
+      if (i + j + 1 == n) continue;
+      grid.add(t[0] + ((i + 2.0 / 3) / n) * u + ((j + 2.0 / 3) / n) * v, 0.0, share);
+    }
+  }
+}
+
+/// The turn across an edge between two triangles, along its length.
+void add_turn(const Edge& a, const Edge& b, double cell, CellGrid& grid) {
+  const Vec3 along = a.ends[1] - a.ends[0];
+  const double sine = length(cross(a.normal, b.normal));
+  const double angle = std::atan2(sine, dot(a.normal, b.normal));
+  const double sign = dot(b.apex - a.ends[0], a.normal) < 0.0 ? 1.0 : -1.0;
+  const double turn = sign * angle * length(along);
+  if (turn == 0.0) return;
+  const int n = std::max(1, static_cast<int>(std::ceil(1.5 * length(along) / cell)));
+  for (int i = 0; i < n; ++i) grid.add(a.ends[0] + ((i + 0.5) / n) * along, turn / n, 0.0);
+}
+
+std::vector<Edge> edges_of(const TriangleMesh& mesh) {
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Vec3, 3> p{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+    const Vec3 normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
+    if (normal == Vec3{}) continue;
+    for (std::size_t n = 0; n < 3; ++n) {
+      Edge edge{{p[n], p[(n + 1) % 3]}, normal, p[(n + 2) % 3]};
+      if (is_before(edge.ends[1], edge.ends[0])) std::swap(edge.ends[0], edge.ends[1]);
+      edges.push_back(edge);
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return a.ends[0] == b.ends[0] ? is_before(a.ends[1], b.ends[1])
+                                  : is_before(a.ends[0], b.ends[0]);
+  });
+  return edges;
+}
+
+/// Cells twice as large.
+std::vector<Cell> doubled(const std::vector<Cell>& cells) {
+  std::vector<Cell> large;
+  for (const Cell& cell : cells) {
+    if (large.empty() || large.back().key != cell.key >> 3) large.push_back({cell.key >> 3});
+    large.back().turn += cell.turn;
+    large.back().area += cell.area;
+  }
+  return large;
+}
+
+/// Where a sorted list, least last, exceeds a value: how many.
+std::size_t count_above(const std::vector<double>& descending, double value) {
+  return static_cast<std::size_t>(std::partition_point(descending.begin(), descending.end(),
+                                                       [&](double each) { return each > value; }) -
+                                  descending.begin());
+}
+
+}  // namespace
+
+ImportOutlook::ImportOutlook(const TriangleMesh& mesh) : area_(surface_area(mesh)) {
+  Box3 box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) box.include(mesh.positions[v]);
+  }
+  const Vec3 size = box.size();
+  side_ = std::max({size.x, size.y, size.z});
+  if (!(side_ > 0.0 && area_ > 0.0)) return;
+  low_ = box.min / side_;
+  high_ = box.max / side_;
+  const double cell = std::max(side_ / kFinestCells, std::sqrt(8.0 * area_ / kMostSamples));
+  cell_ = cell / side_;
+  CellGrid grid(box.min, cell);
+  for (const Triangle& t : mesh.triangles) {
+    add_area({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, cell, grid);
+  }
+  const std::vector<Edge> edges = edges_of(mesh);
+  for (std::size_t n = 0; n + 1 < edges.size(); ++n) {
+    if (edges[n].ends == edges[n + 1].ends) add_turn(edges[n], edges[n + 1], cell, grid);
+  }
+  for (std::vector<Cell> cells = grid.take(); cells.size() > 1; cells = doubled(cells)) {
+    std::vector<std::pair<double, double>> leaves;  // the most bent cell, and the area
+    std::uint64_t last = ~std::uint64_t{0};
+    for (const Cell& each : cells) {
+      const std::uint64_t leaf = each.key >> (3 * kCellsOfALeaf);
+      if (leaf != last) leaves.emplace_back(0.0, 0.0);
+      last = leaf;
+      leaves.back().first = std::max(leaves.back().first, std::abs(each.turn) / side_);
+      leaves.back().second += each.area / area_;
+    }
+    std::sort(leaves.begin(), leaves.end(), std::greater<>());
+    Leaves& sorted = leaves_.emplace_back();
+    double sum = 0.0;
+    for (const auto& [bend, part] : leaves) {
+      sorted.bend.push_back(bend);
+      sorted.area.push_back(sum += part);
+    }
+  }
+}
+
+/// How much of the area lies in leaves, with cells of this side, that are bent by more than that.
+double ImportOutlook::bent_fraction(double cell, double bend) const {
+  if (leaves_.empty()) return 0.0;
+  const auto at = [&](std::size_t n) {
+    const std::size_t count = count_above(leaves_[n].bend, bend);
+    return count == 0 ? 0.0 : leaves_[n].area[count - 1];
+  };
+  const double last = static_cast<double>(leaves_.size() - 1);
+  const double place = std::clamp(std::log2(cell / cell_), 0.0, last);
+  const auto low = static_cast<std::size_t>(place);
+  const std::size_t high = std::min(low + 1, leaves_.size() - 1);
+  const double t = place - static_cast<double>(low);
+  return (1.0 - t) * at(low) + t * at(high);
+}
+
+/// Nodes of the upper kind that a level of such voxels has: they part space at the origin.
+double ImportOutlook::upper_nodes(double voxel) const {
+  const double side = kUpperVoxels * voxel;
+  double count = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = low_[axis] - kBandVoxels * voxel;
+    const double high = high_[axis] + kBandVoxels * voxel;
+    count *= std::floor(high / side) - std::floor(low / side) + 1.0;
+  }
+  return count;
+}
+
+ImportOutlook::Cost ImportOutlook::at(double voxels, double tolerance_voxels) const {
+  assert(voxels >= 1.0 && tolerance_voxels > 0.0);
+  Cost cost;
+  if (leaves_.empty()) return cost;
+  const double area = area_ / (side_ * side_);
+  // The chords of the next level would miss the surface by more than the tolerance.
+  const double bend = tolerance_voxels / (voxels * kErrorOfTurn);
+  double finer = 0.0;  // how much of the surface finer levels have
+  double needed = 0.0;
+  bool is_top = false;
+  for (double voxel = 1.0 / voxels; !is_top; voxel *= 2.0) {
+    is_top = kLeastAcross * voxel > 0.5;
+    needed = is_top ? 1.0 : std::max(needed, bent_fraction(2.0 * voxel, bend));
+    const double squares = area / (voxel * voxel);
+    const double held = std::min(1.0, kWithNeighbours * needed);
+    cost.vertices += kVerticesPerSquare * squares * (held - finer);
+    finer = held;
+    const double upper = upper_nodes(voxel);
+    const double lower =
+        upper + kLeavesPerSquare * squares * std::min(1.0, 2.5 * needed) / square(kLowerVoxels);
+    cost.bytes += kBytesPerLeaf * kLeavesPerSquare * squares * needed / square(8.0) +
+                  kUpperBytes * upper + kLowerBytes * lower;
+  }
+  return cost;
+}
+
+}  // namespace argil::io

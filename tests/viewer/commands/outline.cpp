@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/outline.h"
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <thread>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "argil/engine/clay.h"
+
+#include "viewer/support/gestures_test.h"
+
+namespace argil::viewer {
+namespace {
+
+using Pixel = Camera::Pixel;
+
+/// With y up, as loops are oriented.
+double loop_area(const std::vector<Pixel>& loop) {
+  double twice = 0.0;
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const Pixel& a = loop[n];
+    const Pixel& b = loop[(n + 1) % loop.size()];
+    twice += a.y * b.x - a.x * b.y;
+  }
+  return 0.5 * twice;
+}
+
+double side_of(const Pixel& a, const Pixel& b, const Pixel& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Whether two pieces that are no neighbours cross.
+bool crosses_itself(const std::vector<Pixel>& loop) {
+  const std::size_t count = loop.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 2; j < count; ++j) {
+      if (i == 0 && j == count - 1) continue;
+      const Pixel &a = loop[i], &b = loop[(i + 1) % count], &c = loop[j],
+                  &d = loop[(j + 1) % count];
+      constexpr double kTouch = 1e-9;
+      if (side_of(a, b, c) * side_of(a, b, d) < -kTouch &&
+          side_of(c, d, a) * side_of(c, d, b) < -kTouch) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+TEST(SimpleLoops, LeaveAPlainOutlineAsItIs) {
+  const auto loops = simple_loops({{0, 0}, {0, 10}, {20, 10}, {20, 0}});
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_EQ(loops[0].size(), 4U);
+  EXPECT_DOUBLE_EQ(loop_area(loops[0]), 200.0);
+  // The other way round it is the same.
+  const auto back = simple_loops({{20, 0}, {20, 10}, {0, 10}, {0, 0}});
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_DOUBLE_EQ(loop_area(back[0]), 200.0);
+}
+
+TEST(SimpleLoops, PartAnEightIntoTwo) {
+  const auto loops = simple_loops({{0, 0}, {20, 20}, {20, 0}, {0, 20}});
+  ASSERT_EQ(loops.size(), 2U);
+  for (const auto& loop : loops) EXPECT_NEAR(loop_area(loop), 100.0, 1e-9);
+}
+
+TEST(SimpleLoops, KeepWhatAPigtailGoesAround) {
+  // A square whose right side makes a small loop to the outside.
+  const auto loops = simple_loops(
+      {{0, 0}, {100, 0}, {100, 60}, {140, 60}, {140, 40}, {80, 40}, {80, 100}, {0, 100}});
+  double sum = 0.0;
+  for (const auto& loop : loops) {
+    EXPECT_FALSE(crosses_itself(loop));
+    sum += loop_area(loop);
+  }
+  EXPECT_EQ(loops.size(), 2U);
+  EXPECT_GT(sum, 8000.0);
+}
+
+TEST(SimpleLoops, OfARandomScribbleNeverCrossThemselves) {
+  unsigned state = 7;
+  const auto random = [&] {
+    state = state * 1664525U + 1013904223U;
+    return 500.0 * (state >> 8U) / double(1U << 24U);
+  };
+  for (int scene = 0; scene < 40; ++scene) {
+    std::vector<Pixel> scribble;
+    for (int n = 0; n < 30; ++n) scribble.push_back({random(), random()});
+    const auto loops = simple_loops(scribble);
+    EXPECT_FALSE(loops.empty());
+    for (const auto& loop : loops) {
+      EXPECT_FALSE(crosses_itself(loop)) << scene;
+      EXPECT_GT(loop_area(loop), 0.0);
+    }
+  }
+}
+
+TEST(SimpleLoops, LeaveOutWhatHasNoAreaAndPointsThatSayNothing) {
+  EXPECT_TRUE(simple_loops({}).empty());
+  EXPECT_TRUE(simple_loops({{1, 1}, {50, 50}}).empty());
+  EXPECT_TRUE(simple_loops({{1, 1}, {50, 50}, {99, 99}}).empty());
+  std::vector<Pixel> circle;
+  for (int n = 0; n < 3000; ++n) {
+    const double turn = 2.0 * 3.14159265358979 * n / 3000.0;
+    circle.push_back({200.0 + 100.0 * std::cos(turn), 200.0 + 100.0 * std::sin(turn)});
+  }
+  const auto loops = simple_loops(circle);
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_LT(loops[0].size(), 80U);
+  EXPECT_NEAR(loop_area(loops[0]), 3.14159265 * 1e4, 0.012 * 3.14159265 * 1e4);
+}
+
+// ---- what they do to the clay ------------------------------------------------------------------
+
+/// A camera that looks at the origin from the front, 100 pixels for some 30 mm.
+WindowPart from_the_front(bool is_parallel) {
+  WindowPart part;
+  part.camera.resize(200, 160);
+  part.camera.look_from({0.0, -1.0, 0.0}, {0.0, 0.0, 1.0});
+  Box3 box;
+  box.include({-12.0, -12.0, -12.0});
+  box.include({12.0, 12.0, 12.0});
+  part.camera.frame(box);
+  part.camera.set_parallel(is_parallel);
+  return part;
+}
+
+/// Where a point of the plane y = 0 is seen.
+Pixel pixel_at(const Camera& camera, double x, double z) {
+  const double mm = camera.pixel_mm_at({0.0, 0.0, 0.0});
+  return {0.5 * camera.width() + x / mm, 0.5 * camera.height() - z / mm};
+}
+
+OutlineDrag drag_of(DragForm form, bool is_parallel,
+                    std::vector<std::pair<double, double>> points) {
+  OutlineDrag drag;
+  drag.form = form;
+  drag.is_trim = true;
+  drag.part = from_the_front(is_parallel);
+  for (const auto& [x, z] : points) drag.points.push_back(pixel_at(drag.part.camera, x, z));
+  return drag;
+}
+
+constexpr double kTrimVoxelMm = 0.4;
+Clay trimmed(const OutlineDrag& drag) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = kTrimVoxelMm}).value();
+  const auto step = step_of(drag, clay.bounds_mm(), false);
+  EXPECT_TRUE(step && io::apply_step(clay, *step).ok());
+  return clay;
+}
+
+class Trims : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Views, Trims, testing::Bool(), [](const auto& named) {
+  return std::string(named.param ? "parallel" : "perspective");
+});
+
+TEST_P(Trims, SolidsAreClosedAndReachThroughTheClay) {
+  const OutlineDrag drag =
+      drag_of(DragForm::lasso, GetParam(), {{-4, -4}, {4, -4}, {4, 4}, {1, 4}, {1, -1}, {-4, -1}});
+  Box3 box;
+  box.include({-10.0, -10.0, -10.0});
+  box.include({10.0, 10.0, 10.0});
+  const auto step = step_of(drag, box, false);
+  ASSERT_TRUE(step);
+  const TriangleMesh& mesh = *std::get<Combine>(std::get<Operation>(*step)).mesh;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t n = 0; n < 3; ++n) {
+      ++edges[{t[n], t[(n + 1) % 3]}];
+      --edges[{t[(n + 1) % 3], t[n]}];
+    }
+  }
+  for (const auto& [edge, count] : edges) EXPECT_EQ(count, 0);
+  EXPECT_GT(signed_volume(mesh), 0.0) << "it faces outward";
+  EXPECT_LT(bounds(mesh).min.y, -10.0);
+  EXPECT_GT(bounds(mesh).max.y, 10.0);
+}
+
+TEST_P(Trims, ABoxCutsThroughTheClayAsItIsSeen) {
+  const OutlineDrag drag = drag_of(DragForm::box, GetParam(), {{2.0, -20.0}, {20.0, 20.0}});
+  const Clay clay = trimmed(drag);
+  const Camera& camera = drag.part.camera;
+  const double eye = camera.distance_mm();
+  for (const double y : {-8.0, -3.0, 0.0, 3.0, 8.0}) {
+    // The box's left side where it is seen at that depth.
+    const double side = GetParam() ? 2.0 : 2.0 * (eye + y) / eye;
+    EXPECT_NEAR(clay.distance_at({side, y, 0.0}), 0.0, 0.1 * kTrimVoxelMm) << y;
+    EXPECT_LT(clay.distance_at({side - 1.0, y, 0.0}), 0.0) << y;
+    EXPECT_GT(clay.distance_at({side + 1.0, y, 0.0}), 0.0) << y;
+  }
+  // What the box does not show keeps its place.
+  EXPECT_NEAR(clay.distance_at({-10.0, 0.0, 0.0}), 0.0, 0.02 * kTrimVoxelMm);
+}
+
+TEST_P(Trims, ALassoThatIsInvertedKeepsWhatIsWithinIt) {
+  OutlineDrag drag = drag_of(DragForm::lasso, GetParam(), {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}});
+  drag.is_inverse = true;
+  const Clay clay = trimmed(drag);
+  EXPECT_LT(clay.distance_at({0.0, 9.0, 0.0}), 0.0);
+  EXPECT_LT(clay.distance_at({3.5, 0.0, -3.5}), 0.0);
+  EXPECT_GT(clay.distance_at({5.0, 0.0, 0.0}), 0.0);
+  EXPECT_NEAR(clay.distance_at({0.0, -10.0, 0.0}), 0.0, 0.02 * kTrimVoxelMm);
+}
+
+TEST_P(Trims, ALineTakesWhatLiesToItsRight) {
+  // From left to right: what is below goes. Ctrl keeps it instead.
+  OutlineDrag drag = drag_of(DragForm::line, GetParam(), {{-15.0, 3.0}, {15.0, 3.0}});
+  const Clay top = trimmed(drag);
+  EXPECT_LT(top.distance_at({0.0, 0.0, 5.0}), 0.0);
+  EXPECT_GT(top.distance_at({0.0, 0.0, 1.0}), 0.0);
+  drag.is_inverse = true;
+  const Clay rest = trimmed(drag);
+  EXPECT_GT(rest.distance_at({0.0, 0.0, 5.0}), 0.0);
+  EXPECT_LT(rest.distance_at({0.0, 0.0, 1.0}), 0.0);
+  EXPECT_NEAR(rest.distance_at({0.0, 0.0, 3.0}), 0.0, 0.05 * kTrimVoxelMm);
+}
+
+TEST_P(Trims, OverAllOfTheClayAreRefusedByTheEngineAndBesideItAreNothing) {
+  Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = kTrimVoxelMm}).value();
+  const auto all =
+      step_of(drag_of(DragForm::box, GetParam(), {{-30, -30}, {30, 30}}), clay.bounds_mm(), false);
+  ASSERT_TRUE(all);
+  EXPECT_FALSE(io::apply_step(clay, *all).ok());
+  EXPECT_FALSE(
+      step_of(drag_of(DragForm::box, GetParam(), {{25, 25}, {28, 28}}), clay.bounds_mm(), false));
+  EXPECT_FALSE(step_of(drag_of(DragForm::box, GetParam(), {{3, 3}}), clay.bounds_mm(), false));
+  EXPECT_FALSE(
+      step_of(drag_of(DragForm::line, GetParam(), {{3, 3}, {3, 3.1}}), clay.bounds_mm(), false));
+}
+
+// ---- by the mouse ------------------------------------------------------------------------------
+
+class OutlineGestures : public GesturesTest {
+ protected:
+  OutlineGestures() {
+    document_.send(NewClay{{io::StartShape::Kind::ball, {10.0, 0.0, 0.0}, {.voxel_mm = 0.5}}});
+    settle();
+    ui_.camera.look_from({0.0, -1.0, 0.0}, {0.0, 0.0, 1.0});
+    ui_.camera.frame(ui_.clay.bounds_mm);
+  }
+  void settle() {
+    while (!document_.is_idle()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::vector<double> inputs;
+      document_.take_blocks(inputs);
+    }
+    ui_.clay = document_.state();
+  }
+  void drag(const std::vector<Pixel>& points, const Modifiers& held = {}) {
+    InputEvent event;
+    event.kind = InputEvent::Kind::press;
+    event.modifiers = held;
+    for (const Pixel& at : points) {
+      event.x = at.x;
+      event.y = at.y;
+      gestures_.on(event, false);
+      event.kind = InputEvent::Kind::move;
+    }
+    event.kind = InputEvent::Kind::release;
+    gestures_.on(event, false);
+    settle();
+  }
+  std::vector<std::string> steps() const { return ui_.clay.steps->names; }
+};
+
+TEST_F(OutlineGestures, ABoxMasksAndWithCtrlFrees) {
+  ui_.brush.action = Action::mask;
+  ui_.outlines.mask = DragForm::box;
+  drag({{10, 10}, {40, 40}});
+  EXPECT_EQ(steps(), (std::vector<std::string>{"Masked within"}));
+  EXPECT_TRUE(ui_.clay.has_mask);
+  drag({{5, 5}, {50, 50}}, {.ctrl = true});
+  EXPECT_EQ(steps().back(), "Unmasked within");
+  EXPECT_FALSE(ui_.clay.has_mask);
+  EXPECT_FALSE(ui_.outline);
+}
+
+TEST_F(OutlineGestures, ALassoTrimsAsOneStepThatUndoTakesBack) {
+  ui_.brush.action = Action::trim;
+  ui_.outlines.trim = DragForm::lasso;
+  const double before = ui_.clay.bounds_mm.max.x;
+  drag({{45, 0}, {64, 0}, {64, 64}, {45, 64}});
+  ASSERT_EQ(steps().size(), 1U);
+  EXPECT_LT(ui_.clay.bounds_mm.max.x, before - 1.0);
+  document_.send(DoStep{io::HistoryStep::undo});
+  settle();
+  EXPECT_EQ(ui_.clay.bounds_mm.max.x, before);
+}
+
+TEST_F(OutlineGestures, ControlAndShiftMaskByALassoWhateverTheTool) {
+  ui_.brush.action = Action::inflate;
+  drag({{10, 10}, {40, 10}, {40, 40}}, {.shift = true, .ctrl = true});
+  EXPECT_EQ(steps(), (std::vector<std::string>{"Masked within"}));
+}
+
+TEST_F(OutlineGestures, EscapeLeavesItAndAClickIsNone) {
+  ui_.brush.action = Action::trim;
+  ui_.outlines.trim = DragForm::box;
+  mouse_at(InputEvent::Kind::press, {10, 10});
+  mouse_at(InputEvent::Kind::move, {40, 40});
+  EXPECT_TRUE(ui_.outline);
+  key(kKeyEscape);
+  EXPECT_FALSE(ui_.outline);
+  mouse_at(InputEvent::Kind::release, {40, 40});
+  drag({{20, 20}});
+  settle();
+  EXPECT_TRUE(steps().empty());
+}
+
+/// What is drawn over a piece that is turned is meant as it is seen.
+TEST(OutlineSteps, OfATurnedPieceAreInItsFrame) {
+  const Placement piece{{3.0, -4.0, 5.0}, normalized(Quat{0.5, 0.1, -0.7, 0.3})};
+  OutlineDrag drag;
+  drag.form = DragForm::line;
+  drag.part.camera.resize(400, 300);
+  drag.points = {{120.0, 40.0}, {260.0, 210.0}};
+  const Box3 bounds{{-20.0, -20.0, -20.0}, {20.0, 20.0, 20.0}};
+  const auto cut_of = [&] {
+    return std::get<Cut>(std::get<Operation>(step_of(drag, bounds, false).value()));
+  };
+  const Cut plain = cut_of();
+  drag.piece = piece;
+  const Cut own = cut_of();
+  EXPECT_LT(length(placed(piece, own.point_mm) - plain.point_mm), 1e-9);
+  EXPECT_LT(length(turned(piece, own.normal) - plain.normal), 1e-9);
+  drag.form = DragForm::box;
+  const auto outline = std::get<MaskOutline>(step_of(drag, bounds, false).value());
+  const Lens lens = drag.part.camera.lens({});
+  EXPECT_LT(length(placed(piece, outline.view.eye_mm) - lens.eye_mm), 1e-9);
+  const Vec3 right = rotate(outline.view.orientation, {1.0, 0.0, 0.0});
+  EXPECT_LT(length(turned(piece, right) - lens.right), 1e-9);
+}
+
+}  // namespace
+}  // namespace argil::viewer

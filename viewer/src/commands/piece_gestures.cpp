@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/piece_gestures.h"
+
+#include <cmath>
+#include <utility>
+
+#include "picture/stereo.h"
+
+namespace argil::viewer {
+namespace {
+
+WindowPart part_under_pointer(const UiState& ui, const Camera::Pixel& pixel) {
+  return part_at(ui.camera, ui.show.is_stereo, pixel);
+}
+
+}  // namespace
+
+Placement shown_placement(const UiState& ui) {
+  if (!ui.clay.pieces) return {};
+  const PieceState& active = ui.clay.pieces->active_piece();
+  const std::optional<PieceDrag>& drag = ui.pieces.drag;
+  return drag && drag->piece == active.key ? drag->placement : active.look.placement;
+}
+
+Box3 shown_bounds(const UiState& ui) {
+  Box3 all = ui.clay.all_bounds_mm;
+  if (!ui.pieces.drag) return all;
+  const Box3 dragged = placed(shown_placement(ui), ui.clay.bounds_mm);
+  if (dragged.empty()) return all;
+  all.include(dragged.min);
+  all.include(dragged.max);
+  return all;
+}
+
+std::optional<Gizmo> shown_gizmo(const UiState& ui, const Camera& camera) {
+  if (!ui.pieces.has_gizmo || !ui.clay.pieces || ui.clay.bounds_mm.empty()) return std::nullopt;
+  const PieceLook& look = ui.clay.pieces->active_piece().look;
+  if (!look.is_visible || look.is_locked) return std::nullopt;
+  return gizmo_at(placed(shown_placement(ui), ui.clay.bounds_mm.center()), camera);
+}
+
+std::optional<Placement> judged_placement(const UiState& ui) {
+  if (!ui.report || !ui.clay.pieces) return std::nullopt;
+  const PieceList& list = *ui.clay.pieces;
+  if (list.active_piece().key == ui.report->piece) return shown_placement(ui);
+  for (const PieceState& piece : list.pieces) {
+    if (piece.key == ui.report->piece && piece.look.is_visible) return piece.look.placement;
+  }
+  return std::nullopt;
+}
+
+void place_active(const Placement& placement, const UiState& ui, DocumentThread& document) {
+  if (!ui.clay.pieces) return;
+  const PieceLook& look = ui.clay.pieces->active_piece().look;
+  if (are_same(placement, look.placement)) return;
+  ChangePiece change{look.name};
+  change.placement = placement;
+  document.send(DoStep{PieceEdit{change}});
+}
+
+bool PieceGestures::press(const InputEvent& event) {
+  // One that the document has not done yet is still shown.
+  if (ui_.pieces.drag || ui_.task.is_running) return false;
+  const WindowPart part = part_under_pointer(ui_, {event.x, event.y});
+  const Camera::Pixel pixel = part.inside({event.x, event.y});
+  const auto gizmo = shown_gizmo(ui_, part.camera);
+  const auto handle = gizmo ? part_under(*gizmo, part.camera, pixel) : std::nullopt;
+  if (!handle) return false;
+  const Placement before = shown_placement(ui_);
+  drag_.emplace(*gizmo, *handle, part.camera, pixel, before);
+  ui_.pieces.drag = PieceDrag{ui_.clay.pieces->active_piece().key, before};
+  ui_.pieces.handle = handle;
+  return true;
+}
+
+void PieceGestures::move(const InputEvent& event) {
+  constexpr double kNearPixels = 40.0;
+  const auto& refused = ui_.pieces.refused_at;
+  if (refused && std::hypot(event.x - refused->x, event.y - refused->y) > kNearPixels) {
+    ui_.pieces.refused_at.reset();
+  }
+  const WindowPart part = part_under_pointer(ui_, {event.x, event.y});
+  const Camera::Pixel pixel = part.inside({event.x, event.y});
+  if (drag_ && ui_.pieces.drag) {
+    ui_.pieces.drag->placement = drag_->to(pixel, event.modifiers.ctrl);
+    return;
+  }
+  const auto gizmo = shown_gizmo(ui_, part.camera);
+  ui_.pieces.handle = gizmo ? part_under(*gizmo, part.camera, pixel) : std::nullopt;
+}
+
+void PieceGestures::release() {
+  if (!drag_) return;
+  drag_.reset();
+  if (!ui_.pieces.drag) return;
+  const Placement& aim = ui_.pieces.drag->placement;
+  if (!ui_.clay.pieces || ui_.clay.pieces->active_piece().key != ui_.pieces.drag->piece ||
+      are_same(aim, ui_.clay.pieces->active_piece().look.placement)) {
+    ui_.pieces.drag.reset();
+    return;
+  }
+  place_active(aim, ui_, document_);
+  // Shown there until the document says the same.
+  ui_.pieces.drag->sent_at = ui_.clay.changes;
+}
+
+bool PieceGestures::cancel() {
+  if (!drag_) return false;
+  drag_.reset();
+  ui_.pieces.drag.reset();
+  return true;
+}
+
+void PieceGestures::press_on_other(const InputEvent& event) {
+  constexpr double kTwiceS = 0.4;
+  constexpr double kTwicePixels = 6.0;
+  const bool is_second =
+      last_press_ && event.time_s - last_press_->time_s < kTwiceS &&
+      std::hypot(event.x - last_press_->x, event.y - last_press_->y) < kTwicePixels;
+  ui_.pieces.refused_at = Camera::Pixel{event.x, event.y};
+  if (!is_second) {
+    last_press_ = event;
+    return;
+  }
+  last_press_.reset();
+  const Camera::Pixel pixel{event.x, event.y};
+  document_.send(SelectPieceAt{part_under_pointer(ui_, pixel).ray_at(pixel)});
+}
+
+}  // namespace argil::viewer

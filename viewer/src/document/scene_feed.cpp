@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "document/scene_feed.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "picture/piece_frame.h"
+
+namespace argil::viewer {
+
+void SceneNews::append(SceneNews&& later) {
+  for (const PieceKey key : later.gone) pieces.erase(key);
+  gone.insert(gone.end(), later.gone.begin(), later.gone.end());
+  for (auto& [key, news] : later.pieces) pieces[key].append(std::move(news));
+}
+
+SceneFeed::Followed& SceneFeed::follow(const Clay& clay) {
+  const auto [known, is_new] = followed_.try_emplace(&clay);
+  if (is_new) known->second.key = next_key_++;
+  return known->second;
+}
+
+void SceneFeed::touch_masks() noexcept {
+  for (auto& [clay, followed] : followed_) followed.feed.touch_mask_everywhere();
+}
+
+void SceneFeed::restart() noexcept {
+  for (auto& [clay, followed] : followed_) followed.feed.restart();
+  is_fresh_ = true;
+}
+
+SceneNews SceneFeed::drop_all() {
+  SceneNews news;
+  news.gone = std::exchange(gone_, {});
+  for (const auto& [clay, followed] : followed_) news.gone.push_back(followed.key);
+  followed_.clear();
+  is_fresh_ = true;
+  return news;
+}
+
+void SceneFeed::forget_gone(const Sculpture& sculpture, SceneNews& news) {
+  news.gone = std::exchange(gone_, {});
+  std::set<const Clay*> here;
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) here.insert(&sculpture.clay(n));
+  for (auto at = followed_.begin(); at != followed_.end();) {
+    if (here.contains(at->first)) {
+      ++at;
+    } else {
+      news.gone.push_back(at->second.key);
+      at = followed_.erase(at);
+    }
+  }
+}
+
+Result<SceneNews> SceneFeed::update(const Sculpture& sculpture, const ViewOf& view_of,
+                                    bool looks_at_all) {
+  SceneNews news;
+  looks_at_all = std::exchange(is_fresh_, false) || looks_at_all;
+  if (looks_at_all) forget_gone(sculpture, news);
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
+    const PieceLook& look = sculpture.look(n);
+    if (!look.is_visible || (!looks_at_all && n != sculpture.active())) continue;
+    const Clay& clay = sculpture.clay(n);
+    std::optional<DisplayView> view = view_of(clay);
+    if (view) view = unplaced(look.placement, *view);
+    Followed& followed = follow(clay);
+    auto updated = followed.feed.update(clay, view);
+    if (!updated) {
+      restart();
+      gone_ = std::move(news.gone);
+      return updated.error();
+    }
+    if (!updated.value().empty()) news.pieces.emplace(followed.key, std::move(updated).value());
+  }
+  return news;
+}
+
+Result<SceneNews> SceneFeed::update(const Sculpture& sculpture, Preview& preview) {
+  Followed& followed = follow(sculpture.clay());
+  auto updated = followed.feed.update(sculpture.clay(), preview);
+  if (!updated) return updated.error();
+  SceneNews news;
+  if (!updated.value().empty()) news.pieces.emplace(followed.key, std::move(updated).value());
+  return news;
+}
+
+std::optional<ScenePick> SceneFeed::pick(const Sculpture& sculpture, const Ray& ray) {
+  std::optional<ScenePick> nearest;
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
+    const PieceLook& look = sculpture.look(n);
+    const auto known = followed_.find(&sculpture.clay(n));
+    if (!look.is_visible || known == followed_.end()) continue;
+    const auto picked = known->second.feed.pick(unplaced(look.placement, ray));
+    if (!picked || !picked.value()) continue;
+    const Pick& pick = *picked.value();
+    // Of two at the same place the active one, as in the picture.
+    const bool is_first =
+        !nearest || pick.distance_mm < nearest->pick.distance_mm ||
+        (pick.distance_mm == nearest->pick.distance_mm && n == sculpture.active());
+    if (is_first) nearest = ScenePick{n, placed(look.placement, pick)};
+  }
+  return nearest;
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pieces of a sculpture: their list, what is done to them, and where the active one stands.
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include <imgui.h>
+
+#include "base/text.h"
+#include "commands/command.h"
+#include "commands/piece_edits.h"
+#include "commands/piece_gestures.h"
+#include "panels/gui.h"
+#include "panels/layout.h"
+#include "panels/panels.h"
+
+namespace argil::viewer {
+namespace {
+
+constexpr float kPiecesWidth = 270.0F;  // units, as all sizes here
+constexpr float kIconSide = 20.0F;
+constexpr int kMostRows = 8;  // without scrolling
+
+struct NamedColor {
+  const char* name;
+  Rgb8 color;
+};
+constexpr NamedColor kPalette[] = {
+    {"White", {235, 232, 226}}, {"Grey", {140, 142, 146}},  {"Black", {48, 48, 52}},
+    {"Red", {196, 64, 56}},     {"Orange", {226, 140, 56}}, {"Yellow", {226, 200, 84}},
+    {"Green", {96, 160, 84}},   {"Teal", {64, 152, 152}},   {"Blue", {72, 116, 196}},
+    {"Violet", {136, 96, 180}}, {"Pink", {220, 140, 160}},  {"Skin", {224, 172, 140}}};
+
+ImVec4 shown(const Rgb8& color) {
+  return {static_cast<float>(color[0]) / 255.0F, static_cast<float>(color[1]) / 255.0F,
+          static_cast<float>(color[2]) / 255.0F, 1.0F};
+}
+
+std::optional<Rgb8> color_of(const std::string& text) {
+  std::array<unsigned, 3> parts{};
+  char rest = '\0';
+  const char* digits = text.c_str() + (text.starts_with('#') ? 1 : 0);
+  const int read = std::sscanf(digits, "%2x%2x%2x%c", &parts[0], &parts[1], &parts[2],
+                               &rest);  // NOLINT(cert-err34-c)
+  if (read != 3) return std::nullopt;
+  Rgb8 color{};
+  for (std::size_t n = 0; n < 3; ++n) color[n] = static_cast<std::uint8_t>(parts[n]);
+  return color;
+}
+
+/// A square to click on, with a picture drawn about its middle.
+template <class Draw>
+bool icon(const std::string& label, const char* help, const Draw& draw) {
+  const float side = kIconSide * unit();
+  const bool is_clicked = tile(label.c_str(), static_cast<double>(side), static_cast<double>(side));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  draw(*ImGui::GetWindowDrawList(), ImVec2{low.x + 0.5F * side, low.y + 0.5F * side}, unit());
+  return is_clicked;
+}
+
+bool draw_eye(const std::string& name, bool is_open) {
+  const ImU32 color = ImGui::GetColorU32(is_open ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+  return icon("Show " + name, is_open ? "hide it" : "show it",
+              [&](ImDrawList& list, const ImVec2& at, float u) {
+                const float thick = 1.4F * u;
+                const ImVec2 left{at.x - 7.0F * u, at.y};
+                const ImVec2 right{at.x + 7.0F * u, at.y};
+                const auto lid = [&](float y) {
+                  list.AddBezierQuadratic(left, {at.x, at.y + y * u}, right, color, thick);
+                };
+                lid(8.0F);
+                if (!is_open) return;
+                lid(-8.0F);
+                list.AddCircleFilled(at, 2.4F * u, color);
+              });
+}
+
+bool draw_lock(const std::string& name, bool is_shut) {
+  const ImU32 color = ImGui::GetColorU32(is_shut ? ImGuiCol_CheckMark : ImGuiCol_TextDisabled);
+  return icon("Lock " + name, is_shut ? "free it: it is locked" : "lock it against any change",
+              [&](ImDrawList& list, const ImVec2& at, float u) {
+                const float open = is_shut ? 0.0F : 3.0F * u;
+                const ImVec2 bow{at.x + open, at.y - 1.0F * u};
+                list.PathArcTo(bow, 3.4F * u, 3.1416F, 6.2832F, 12);
+                list.PathStroke(color, 0, 1.6F * u);
+                list.AddRectFilled({at.x - 5.0F * u, at.y - 1.0F * u},
+                                   {at.x + 5.0F * u, at.y + 6.0F * u}, color, 1.5F * u);
+              });
+}
+
+void change(ChangePiece wanted, DocumentThread& document) {
+  edit_piece(PieceEdit{std::move(wanted)}, document);
+}
+
+void set_color(const std::string& name, std::optional<Rgb8> color, DocumentThread& document) {
+  ChangePiece wanted{name};
+  wanted.color = std::optional<std::optional<Rgb8>>(color);
+  change(std::move(wanted), document);
+  ImGui::CloseCurrentPopup();
+}
+
+/// The colours to choose from, and a field for any other.
+void draw_palette(const PieceLook& look, std::string& typed, DocumentThread& document) {
+  int column = 0;
+  for (const NamedColor& offered : kPalette) {
+    if (column++ % 6 != 0) ImGui::SameLine();
+    const std::string label = std::string("Colour ") + offered.name;
+    if (ImGui::ColorButton(label.c_str(), shown(offered.color), ImGuiColorEditFlags_NoTooltip)) {
+      set_color(look.name, offered.color, document);
+    }
+    note_widget(label);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", offered.name);
+  }
+  if (ImGui::IsWindowAppearing()) {
+    char text[8] = "#";
+    if (look.color) {
+      const auto& [red, green, blue] = *look.color;
+      std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<unsigned>(red),
+                    static_cast<unsigned>(green), static_cast<unsigned>(blue));
+    }
+    typed = text;
+  }
+  ImGui::SetNextItemWidth(80.0F * unit());
+  if (text_field("sRGB", typed)) {
+    if (const auto color = color_of(typed)) set_color(look.name, color, document);
+  }
+  ImGui::SameLine();
+  if (button("As clay")) set_color(look.name, std::nullopt, document);
+}
+
+void draw_color(const PieceLook& look, std::string& typed, DocumentThread& document) {
+  const std::string label = "Colour " + look.name;
+  const bool is_clicked =
+      icon(label, "its colour", [&](ImDrawList& list, const ImVec2& at, float u) {
+        const ImVec4 color = look.color ? shown(*look.color) : ImVec4{0.75F, 0.53F, 0.42F, 1.0F};
+        list.AddCircleFilled(at, 6.0F * u, ImGui::ColorConvertFloat4ToU32(color), 20);
+        if (!look.color)
+          list.AddCircle(at, 6.0F * u, ImGui::GetColorU32(ImGuiCol_TextDisabled), 20);
+      });
+  const std::string popup = label + "##popup";
+  if (is_clicked) ImGui::OpenPopup(popup.c_str());
+  if (!ImGui::BeginPopup(popup.c_str())) return;
+  draw_palette(look, typed, document);
+  ImGui::EndPopup();
+}
+
+void draw_name(const PieceState& piece, bool is_active, UiState& ui, DocumentThread& document) {
+  PieceChoice& choices = ui.pieces;
+  const std::string& name = piece.look.name;
+  if (choices.renamed != piece.key) {
+    if (choice(name.c_str(), is_active) && !is_active) edit_piece(SelectPiece{name}, document);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+      choices.renamed = piece.key;
+      choices.new_name = name;
+    }
+    return;
+  }
+  ImGui::SetNextItemWidth(-1.0F);
+  const bool begins = ImGui::IsWindowAppearing() || !ImGui::IsAnyItemActive();
+  if (begins) ImGui::SetKeyboardFocusHere();
+  const bool is_entered = text_field("##rename", choices.new_name);
+  if (!is_entered && !ImGui::IsItemDeactivated()) return;
+  choices.renamed.reset();
+  if ((!is_entered && !ImGui::IsItemDeactivatedAfterEdit()) || choices.new_name == name) return;
+  ChangePiece wanted{name};
+  wanted.new_name = choices.new_name;
+  change(std::move(wanted), document);
+}
+
+void draw_list(UiState& ui, DocumentThread& document) {
+  const PieceList& list = *ui.clay.pieces;
+  const int rows = std::min(static_cast<int>(list.pieces.size()), kMostRows);
+  const float row = (kIconSide + 4.0F) * unit();
+  ImGui::BeginChild("list", {0.0F, static_cast<float>(rows) * row + 16.0F * unit()}, true);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4.0F * unit(), 4.0F * unit()});
+  for (std::size_t n = 0; n < list.pieces.size(); ++n) {
+    const PieceState& piece = list.pieces[n];
+    ImGui::PushID(static_cast<int>(piece.key));
+    if (draw_eye(piece.look.name, piece.look.is_visible)) {
+      ChangePiece wanted{piece.look.name};
+      wanted.is_visible = !piece.look.is_visible;
+      change(std::move(wanted), document);
+    }
+    ImGui::SameLine();
+    if (draw_lock(piece.look.name, piece.look.is_locked)) {
+      ChangePiece wanted{piece.look.name};
+      wanted.is_locked = !piece.look.is_locked;
+      change(std::move(wanted), document);
+    }
+    ImGui::SameLine();
+    draw_color(piece.look, ui.pieces.typed_color, document);
+    ImGui::SameLine();
+    draw_name(piece, n == list.active, ui, document);
+    // One that became active by other means than a click here comes into sight.
+    if (n == list.active && std::exchange(ui.pieces.listed, piece.key) != piece.key) {
+      ImGui::SetScrollHereY();
+    }
+    ImGui::PopID();
+  }
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+/// A command as a button, grey while it cannot be done. `label` may be shorter than in the menu.
+void command_button(Command command, const char* label, UiState& ui, DocumentThread& document) {
+  ImGui::BeginDisabled(!is_possible(command, ui));
+  if (button(label)) perform(command, ui, document);
+  ImGui::EndDisabled();
+}
+
+void draw_changes(UiState& ui, DocumentThread& document) {
+  command_button(Command::piece_ball, "Add ball", ui, document);
+  ImGui::SameLine();
+  command_button(Command::piece_import, "Add mesh...", ui, document);
+  ImGui::SameLine();
+  if (button("Rename")) {
+    ui.pieces.renamed = ui.clay.pieces->active_piece().key;
+    ui.pieces.new_name = ui.clay.pieces->active_piece().look.name;
+  }
+  command_button(Command::piece_duplicate, "Duplicate##piece", ui, document);
+  ImGui::SameLine();
+  command_button(Command::piece_remove, "Remove##piece", ui, document);
+  const std::string other = other_piece(ui);
+  if (other.empty()) return;
+  std::vector<std::string> names;
+  int at = 0;
+  for (const PieceState& piece : ui.clay.pieces->pieces) {
+    if (piece.key == ui.clay.pieces->active_piece().key) continue;
+    if (piece.look.name == other) at = static_cast<int>(names.size());
+    names.push_back(piece.look.name);
+  }
+  ImGui::Separator();
+  ImGui::SetNextItemWidth(110.0F * unit());
+  if (pick_one("With", at, names)) ui.pieces.other = names[static_cast<std::size_t>(at)];
+  ImGui::SameLine();
+  check("Keep it", ui.pieces.keeps_other);
+  command_button(Command::piece_unite, "Merge##piece", ui, document);
+  ImGui::SameLine();
+  command_button(Command::piece_subtract, "Subtract##piece", ui, document);
+  ImGui::SameLine();
+  command_button(Command::piece_intersect, "Intersect##piece", ui, document);
+}
+
+/// Three fields in a line; true when one was left with another number.
+bool draw_numbers(const std::array<const char*, 3>& labels, Vec3& values, double most,
+                  const char* format, bool& is_typing) {
+  bool is_entered = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis > 0) ImGui::SameLine();
+    ImGui::SetNextItemWidth(80.0F * unit());
+    number(labels[axis], values[axis], -most, most, format);
+    is_typing = is_typing || ImGui::IsItemActive();
+    is_entered = is_entered || ImGui::IsItemDeactivatedAfterEdit();
+  }
+  return is_entered;
+}
+
+/// Where the active piece stands. A number that is typed is kept as it is: the turns of an
+/// orientation are not the only ones that lead to it.
+void draw_place(UiState& ui, DocumentThread& document) {
+  constexpr double kMostMm = 10000.0;
+  constexpr double kMostDeg = 360.0;
+  PieceChoice& choices = ui.pieces;
+  const Placement now = shown_placement(ui);
+  if (!choices.is_typing) {
+    choices.position_mm = now.position_mm;
+    if (!(choices.turned == now.orientation)) choices.turns_deg = turns_of(now.orientation);
+    choices.turned = now.orientation;
+  }
+  choices.is_typing = false;
+  const bool is_locked = ui.clay.pieces->active_piece().look.is_locked;
+  ImGui::BeginDisabled(is_locked);
+  ImGui::TextDisabled("Place, mm");
+  const bool is_moved =
+      draw_numbers({"##x", "##y", "##z"}, choices.position_mm, kMostMm, "%.3f", choices.is_typing);
+  ImGui::TextDisabled("Turned about x, y, z, degrees");
+  const bool is_turned = draw_numbers({"##rx", "##ry", "##rz"}, choices.turns_deg, kMostDeg, "%.2f",
+                                      choices.is_typing);
+  if (is_moved || is_turned) {
+    Placement wanted{choices.position_mm, now.orientation};
+    if (is_turned) wanted.orientation = choices.turned = orientation_of(choices.turns_deg);
+    place_active(wanted, ui, document);
+  }
+  check("Gizmo", choices.has_gizmo);
+  ImGui::SameLine();
+  command_button(Command::piece_bed, "Drop to bed##piece", ui, document);
+  ImGui::SameLine();
+  command_button(Command::piece_middle, "Centre##piece", ui, document);
+  ImGui::EndDisabled();
+}
+
+}  // namespace
+
+void draw_pieces(UiState& ui, DocumentThread& document) {
+  if (!ui.panels.has_pieces) return;
+  put_beside(kPiecesPanelLeft, kPiecesWidth);
+  ImGui::SetNextWindowSize({kPiecesWidth * unit(), 0.0F});
+  keep_on_screen(kPiecesWidth);
+  ImGui::Begin("Pieces", &ui.panels.has_pieces, ImGuiWindowFlags_NoSavedSettings);
+  if (ui.clay.pieces) {
+    draw_list(ui, document);
+    draw_changes(ui, document);
+    ImGui::Separator();
+    draw_place(ui, document);
+  } else {
+    ImGui::TextUnformatted("no clay");
+  }
+  ImGui::End();
+}
+
+/// Beside the pointer, where a stroke was tried on a piece that is not the active one.
+void draw_switch_hint(const UiState& ui) {
+  if (!ui.pieces.refused_at) return;
+  const std::string& name = ui.other_under_pointer;
+  const std::string text = (name.empty() ? "This" : in_quotes(name)) +
+                           " is another piece.\nAlt+Q or a double click: sculpt it";
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float margin = 4.0F * unit();
+  const float most = ImGui::GetIO().DisplaySize.x - size.x - 2.0F * margin;
+  const ImVec2 at{std::min(static_cast<float>(ui.pointer.x) + 16.0F * unit(), most),
+                  static_cast<float>(ui.pointer.y) + 12.0F * unit()};
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled({at.x - margin, at.y - margin},
+                     {at.x + size.x + margin, at.y + size.y + margin},
+                     ImGui::GetColorU32(ImGuiCol_PopupBg), margin);
+  list.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
+}  // namespace argil::viewer
