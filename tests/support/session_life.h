@@ -119,6 +119,20 @@ inline PieceEdit any_piece_edit(std::mt19937& random) {
   }
 }
 
+/// A triangle over the picture of a piece of a few millimetres, from anywhere.
+inline MaskOutline random_outline(std::mt19937& random) {
+  const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };
+  MaskOutline outline;
+  outline.view = {{9.0 * number(), 9.0 * number(), 30.0}, {1.0, 0.1 * number(), 0.1, 0.0}, false};
+  outline.view.is_parallel = random() % 2 == 0;
+  const double unit = outline.view.is_parallel ? 6.0 : 0.2;
+  auto& loop = outline.loops.emplace_back();
+  for (int n = 0; n < 3; ++n) loop.push_back({unit * number(), unit * number()});
+  outline.frees = random() % 3 == 0;
+  outline.front_only = random() % 3 == 0;
+  return outline;
+}
+
 /// What is done at a turn: a step, or nothing, which means: save the project.
 inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
   std::mt19937 random(seed * 1000U + static_cast<unsigned>(turn));
@@ -136,6 +150,7 @@ inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
     case 6:
       return rod_stroke(random);
     case 7:
+      if (random() % 2 == 0) return random_outline(random);
       return static_cast<MaskEdit>(random() % 4);
     case 8: {
       Stroke held = random_dab(random, 6.0);

@@ -12,7 +12,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 namespace argil::io {
@@ -170,6 +169,29 @@ std::vector<Cell> doubled(const std::vector<Cell>& cells) {
   return large;
 }
 
+/// What a leaf holds: the turn of its most bent cell, and its area.
+struct BentLeaf {
+  double turn = 0.0;
+  double area = 0.0;
+};
+
+/// The leaves of cells in the order of their keys; the most bent first.
+std::vector<BentLeaf> leaves_by_bend(const std::vector<Cell>& cells) {
+  std::vector<BentLeaf> leaves;
+  std::uint64_t last = ~std::uint64_t{0};
+  for (const Cell& each : cells) {
+    const std::uint64_t leaf = each.key >> (3 * kCellsOfALeaf);
+    if (leaf != last) leaves.emplace_back();
+    last = leaf;
+    leaves.back().turn = std::max(leaves.back().turn, std::abs(each.turn));
+    leaves.back().area += each.area;
+  }
+  std::sort(leaves.begin(), leaves.end(), [](const BentLeaf& a, const BentLeaf& b) {
+    return a.turn != b.turn ? a.turn > b.turn : a.area > b.area;
+  });
+  return leaves;
+}
+
 /// Where a sorted list, least last, exceeds a value: how many.
 std::size_t count_above(const std::vector<double>& descending, double value) {
   return static_cast<std::size_t>(std::partition_point(descending.begin(), descending.end(),
@@ -200,21 +222,11 @@ ImportOutlook::ImportOutlook(const TriangleMesh& mesh) : area_(surface_area(mesh
     if (edges[n].ends == edges[n + 1].ends) add_turn(edges[n], edges[n + 1], cell, grid);
   }
   for (std::vector<Cell> cells = grid.take(); cells.size() > 1; cells = doubled(cells)) {
-    std::vector<std::pair<double, double>> leaves;  // the most bent cell, and the area
-    std::uint64_t last = ~std::uint64_t{0};
-    for (const Cell& each : cells) {
-      const std::uint64_t leaf = each.key >> (3 * kCellsOfALeaf);
-      if (leaf != last) leaves.emplace_back(0.0, 0.0);
-      last = leaf;
-      leaves.back().first = std::max(leaves.back().first, std::abs(each.turn) / side_);
-      leaves.back().second += each.area / area_;
-    }
-    std::sort(leaves.begin(), leaves.end(), std::greater<>());
     Leaves& sorted = leaves_.emplace_back();
     double sum = 0.0;
-    for (const auto& [bend, part] : leaves) {
-      sorted.bend.push_back(bend);
-      sorted.area.push_back(sum += part);
+    for (const BentLeaf& leaf : leaves_by_bend(cells)) {
+      sorted.bend.push_back(leaf.turn / side_);
+      sorted.area.push_back(sum += leaf.area / area_);
     }
   }
 }

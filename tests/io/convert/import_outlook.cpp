@@ -56,7 +56,7 @@ TEST_P(ImportOutlook, IsWithinAQuarterOfWhatImportMakes) {
 
 INSTANTIATE_TEST_SUITE_P(Models, ImportOutlook,
                          testing::Values("stanford-bunny.obj", "cow.obj", "rocker-arm.obj",
-                                         "fandisk.obj", "spot.obj"),
+                                         "fandisk.obj", "spot.obj", "teapot.obj"),
                          [](const auto& named) { return test::name_of_model(named.param); });
 
 TEST(ImportOutlookOf, DoesNotDependOnTheUnit) {

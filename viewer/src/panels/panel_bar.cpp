@@ -230,7 +230,7 @@ namespace {
 
 void draw_key(const char* what, const char* how) {
   ImGui::TextDisabled("%s", how);
-  ImGui::SameLine(104.0F * unit());
+  ImGui::SameLine(114.0F * unit());
   ImGui::TextUnformatted(what);
 }
 
