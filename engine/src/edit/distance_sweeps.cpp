@@ -82,14 +82,17 @@ class Sweeps {
     for_each_leaf(leaves_.size(), [&](std::size_t n) { open(wanted[n], leaves_[n]); });
   }
 
-  void solve() {
+  /// False: asked to stop.
+  bool solve(const std::function<bool()>& goes_on) {
     for_each_leaf(leaves_.size(), [&](std::size_t n) { seed(leaves_[n]); });
-    for (int sweep = 0; sweep < kMostSweeps && goes_on(); ++sweep) {
+    for (int sweep = 0; sweep < kMostSweeps && is_moving(); ++sweep) {
+      if (goes_on && !goes_on()) return false;
       for_each_leaf(leaves_.size(), [&](std::size_t n) {
         if (leaves_[n].swept != 0) this->sweep(leaves_[n], sweep < kSecondOrderSweeps);
       });
       choose_next();
     }
+    return true;
   }
 
   const LeafValues& values(std::size_t n) const { return leaves_[n].values[leaves_[n].now]; }
@@ -164,7 +167,7 @@ class Sweeps {
     }
   }
 
-  bool goes_on() const {
+  bool is_moving() const {
     return std::any_of(leaves_.begin(), leaves_.end(),
                        [](const Leaf& leaf) { return leaf.swept != 0; });
   }
@@ -178,12 +181,14 @@ class Sweeps {
 
 }  // namespace
 
-void sweep_distances(LevelEdit& edit, std::span<const SweptLeaf> leaves) {
-  if (leaves.empty()) return;
+bool sweep_distances(LevelEdit& edit, std::span<const SweptLeaf> leaves,
+                     const std::function<bool()>& goes_on) {
+  if (leaves.empty()) return true;
   Sweeps sweeps(edit, leaves);
-  sweeps.solve();
+  if (!sweeps.solve(goes_on)) return false;
   for_each_leaf(leaves.size(), [&](std::size_t n) { leaves[n].leaf->write_all(sweeps.values(n)); });
   edit.mark_changes();
+  return true;
 }
 
 }  // namespace argil

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "edit/level_edit.h"
@@ -29,6 +30,8 @@ struct SweptLeaf {
 ///              twelve sweeps are usual.
 /// Source       Jacobi sweeps over the upwind equations, as E. Rouy, A. Tourin, "A viscosity
 ///              solutions approach to shape-from-shading", SIAM J. Numer. Anal. 29 (1992).
-void sweep_distances(LevelEdit& edit, std::span<const SweptLeaf> leaves);
+/// `goes_on`, if given, is asked before each sweep; false, and nothing written, when it said no.
+bool sweep_distances(LevelEdit& edit, std::span<const SweptLeaf> leaves,
+                     const std::function<bool()>& goes_on = {});
 
 }  // namespace argil

@@ -2,6 +2,7 @@
 // Beyond the ends of what an offset shrank, values run along the medial axis of what was there
 // before and rise too slowly; from there they reach the nodes beside. Both lie within a band's
 // width of a node where the upwind gradient is too small, so that much is solved again, together.
+// Coarse levels first: what a level ends at is told by the next coarser one.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -22,20 +23,21 @@ namespace {
 /// there is 1.2 times the distance: what is solved counts only where it is far more than that.
 constexpr float kLeastSlope = 0.8F;
 constexpr float kLeastGain = 1.3F;
+constexpr float kLeastGainVoxels = 0.1F;
 
-/// Of one side of the surface; all nodes are tested against the same.
+/// One side of the surface at one level.
 struct ShortSide {
   bool is_outside;
   float voxel_mm;
   float band_mm;
 
-  bool holds(float value) const noexcept { return is_outside ? value > 0.0F : value < 0.0F; }
-  /// Whether a node is to be told by others: it is within the band and none beside it is across
-  /// the surface, or missing.
+  bool is_across(float value) const noexcept { return is_outside ? value <= 0.0F : value >= 0.0F; }
+  /// Whether others are to tell a node: it is within the band and none beside it is across the
+  /// surface. What is missing is NaN, and across nothing.
   bool is_told(const float* at) const noexcept {
-    if (!holds(*at) || std::abs(*at) >= band_mm) return false;
+    if (is_across(*at) || std::abs(*at) >= band_mm) return false;
     for (const int stride : kHaloStride) {
-      if (!holds(at[stride]) || !holds(at[-stride])) return false;
+      if (is_across(at[stride]) || is_across(at[-stride])) return false;
     }
     return true;
   }
@@ -43,11 +45,21 @@ struct ShortSide {
     if (!is_told(at)) return false;
     float squares = 0.0F;
     for (const int stride : kHaloStride) {
-      const float nearest = std::min(std::abs(at[stride]), std::abs(at[-stride]));
-      const float rise = std::max(0.0F, std::abs(*at) - nearest) / voxel_mm;
+      float nearest = std::abs(*at);
+      for (const float beside : {at[stride], at[-stride]}) {
+        if (std::abs(beside) < nearest) nearest = std::abs(beside);
+      }
+      const float rise = (std::abs(*at) - nearest) / voxel_mm;
       squares += rise * rise;
     }
     return squares < kLeastSlope * kLeastSlope;
+  }
+  /// Whether a solution is so much farther than what was there. The band cuts it short.
+  bool is_gain(float before, float solved) const noexcept {
+    const float from = std::abs(before);
+    const float to = std::abs(solved);
+    if (to - from < kLeastGainVoxels * voxel_mm) return false;
+    return to >= band_mm || to > kLeastGain * from;
   }
 };
 
@@ -55,7 +67,7 @@ struct ShortSide {
 template <class Visit>
 void for_each_own(const HaloBlock& block, const Visit& visit) {
   for (int n = 0; n < kLeafNodes; ++n) {
-    visit(n, &block.value[HaloBlock::index(n >> 6, n >> 3 & 7, n & 7)]);
+    visit(static_cast<std::size_t>(n), &block.value[HaloBlock::index(n >> 6, n >> 3 & 7, n & 7)]);
   }
 }
 
@@ -63,7 +75,7 @@ bool has_too_slow(const LevelStack& stack, const ShortSide& side, int level, con
   HaloBlock block;
   gather_halo(stack, level, origin, block);
   bool found = false;
-  for_each_own(block, [&](int, const float* at) { found = found || side.is_too_slow(at); });
+  for_each_own(block, [&](std::size_t, const float* at) { found = found || side.is_too_slow(at); });
   return found;
 }
 
@@ -92,32 +104,26 @@ void keep_gains(const ShortSide& side, const SweptLeaf& swept) {
   if (!leaf.is_written()) return;
   float* now = leaf.write();
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    const unsigned solved = swept.dirty[n / 8] & ~static_cast<unsigned>(leaf.restricted[n / 8]);
-    if ((solved >> n % 8 & 1U) == 0) continue;
-    const float before = leaf.before()[n];
-    const float gain = std::abs(now[n]) - std::abs(before);
-    const bool is_far_more = std::abs(now[n]) > kLeastGain * std::abs(before);
-    if (!is_far_more || gain < 0.1F * side.voxel_mm) now[n] = before;
+    if (!side.is_gain(leaf.before()[n], now[n])) now[n] = leaf.before()[n];
   }
 }
 
-void solve_short(LevelEdit& edit, const ShortSide& side, const std::vector<Coord>& origins) {
+/// False: asked to stop.
+bool solve_short(LevelEdit& edit, const ShortSide& side, const std::vector<Coord>& origins,
+                 const std::function<bool()>& goes_on) {
   std::vector<SweptLeaf> swept(origins.size());
   for_each_leaf(origins.size(), [&](std::size_t n) {
-    LeafEdit& leaf = *edit.find(origins[n]);
     HaloBlock block;
     gather_halo(edit.stack(), edit.level(), origins[n], block);
-    set_own(leaf.now(), block);  // restricted by now
-    swept[n].leaf = &leaf;
-    for_each_own(block, [&](int node, const float* at) {
-      if (!side.is_told(at)) return;
-      swept[n].dirty[static_cast<std::size_t>(node) / 8] |=
-          static_cast<std::uint8_t>(1U << node % 8);
+    swept[n].leaf = edit.find(origins[n]);
+    for_each_own(block, [&](std::size_t node, const float* at) {
+      if (side.is_told(at)) swept[n].dirty[node / 8] |= static_cast<std::uint8_t>(1U << node % 8);
     });
   });
-  sweep_distances(edit, swept);
+  if (!sweep_distances(edit, swept, goes_on)) return false;
   for_each_leaf(swept.size(), [&](std::size_t n) { keep_gains(side, swept[n]); });
   edit.mark_changes();
+  return true;
 }
 
 }  // namespace
@@ -126,28 +132,21 @@ bool redistance_shortened(LevelStack& stack, bool is_outside, const Progress& pr
   EditMemory memory;
   EditTarget target{stack, memory, 0.0, [](const LeafChange&, const float*, float) {},
                     std::numeric_limits<std::int64_t>::max()};
-  const auto side_of = [&](int level) {
-    return ShortSide{is_outside, static_cast<float>(stack.voxel_mm(level)), stack.band_mm(level)};
-  };
-  Edit edit(target);
-  std::vector<std::vector<Coord>> due(static_cast<std::size_t>(stack.count()));
-  bool is_any_due = false;
-  for (int level = 0; level < stack.count(); ++level) {
-    if (progress && !progress("redistance", 0.5 * level / stack.count())) return false;
-    auto& of_level = due[static_cast<std::size_t>(level)];
-    of_level = leaves_to_solve(stack, side_of(level), level);
-    for (const Coord& origin : of_level) edit.want(level, origin);
-    is_any_due = is_any_due || !of_level.empty();
+  for (int level = stack.top(); level >= 0; --level) {
+    const double done = static_cast<double>(stack.top() - level) / stack.count();
+    const auto goes_on = [&] { return !progress || progress("redistance", done); };
+    if (!goes_on()) return false;
+    const ShortSide side{is_outside, static_cast<float>(stack.voxel_mm(level)),
+                         stack.band_mm(level)};
+    const std::vector<Coord> origins = leaves_to_solve(stack, side, level);
+    if (origins.empty()) continue;
+    Edit edit(target);
+    for (const Coord& origin : origins) edit.want(level, origin);
+    edit.load();
+    if (!solve_short(edit.level(level), side, origins, goes_on)) return false;
+    edit.drop_empty();
+    edit.commit();
   }
-  if (!is_any_due) return true;
-  edit.load();
-  for (int level = 0; level < edit.count(); ++level) {
-    if (progress && !progress("redistance", 0.5 + 0.5 * level / stack.count())) return false;
-    if (level > 0) edit.restrict_to(level, RestrictedLeaves::all);
-    solve_short(edit.level(level), side_of(level), due[static_cast<std::size_t>(level)]);
-  }
-  edit.drop_empty();
-  edit.commit();
   return true;
 }
 

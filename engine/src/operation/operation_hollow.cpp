@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "clay/clay_access.h"
 #include "edit/prune.h"
+#include "field/parallel.h"
 #include "operation/combine.h"
 #include "operation/prepared_operation.h"
 #include "operation/rebuild.h"
@@ -129,16 +131,19 @@ Result<Rod> rod_of(const DrainLine& line, const Drain& drain, std::size_t index,
   return Rod{line.at(begin), line.axis(), end - begin, drain.radius_mm};
 }
 
-/// Subtracts from all distances.
+/// Subtracts from all distances. What is beyond the band stays so: nobody knows how far it is.
 void grow_levels(LevelStack& stack, float mm) {
   for (int level = 0; level < stack.count(); ++level) {
     const float band = stack.band_mm(level);
-    for (const Coord& origin : stack.sorted_origins(level)) {
+    const std::vector<Coord> origins = stack.sorted_origins(level);
+    for_each_leaf(origins.size(), [&](std::size_t n) {
       LeafValues values;
-      std::copy_n(values_of(*stack.leaf(level, origin)), kLeafNodes, values.begin());
-      for (float& value : values) value = std::clamp(value - mm, -band, band);
-      stack.rewrite_leaf(level, origin, values.data());
-    }
+      std::copy_n(values_of(*stack.leaf(level, origins[n])), kLeafNodes, values.begin());
+      for (float& value : values) {
+        if (value < band) value = std::max(value - mm, -band);
+      }
+      stack.rewrite_leaf(level, origins[n], values.data());
+    });
     drop_bandless(stack, level);
   }
 }

@@ -186,11 +186,11 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
     if (!fill(level, octants(level), Keep::needed)) return interrupted;
   }
   if (!balance()) return interrupted;
-  restrict_all(*stack_);
   const bool is_a_distance = source_.offset_mm == 0.0;
   if (!is_a_distance && !redistance_shortened(*stack_, source_.offset_mm < 0.0, progress_)) {
     return interrupted;
   }
+  restrict_all(*stack_);
   for (int level = 0; level < top; ++level) {
     prune_level(*stack_, level, tolerance_of(target_.options));
   }

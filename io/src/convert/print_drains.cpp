@@ -10,7 +10,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -46,11 +45,10 @@ class Drilling {
            double reach_mm)
       : solid_(solid), frame_(frame), options_(options), reach_(reach_mm) {}
 
-  std::optional<Vec3> within_air(const Clay& hollow, const Vec3& end) const;
+  Vec3 within_air(const Clay& hollow, const Vec3& end, double most_mm) const;
   /// One hole into a pocket of what was hollowed so far: down from its lowest place, or up from its
-  /// highest for air. None where no air is found beside that place.
-  std::optional<PrintHole> hole(const Clay& hollow, const mesh::LiquidPocket& pocket,
-                                bool is_for_air) const;
+  /// highest for air.
+  PrintHole hole(const Clay& hollow, const mesh::LiquidPocket& pocket, bool is_for_air) const;
   Drain drain(const PrintHole& hole) const;
   /// Where the solid was: liquid there stands in what was hollowed, not in a bowl outside.
   bool is_inside(const Vec3& on_bed) const {
@@ -60,6 +58,9 @@ class Drilling {
  private:
   /// How far it is through the solid to its outside.
   double way_through(const Vec3& from, const Vec3& direction) const;
+  /// 1 where a hole keeps clear of the outside until it leaves it straight, less where it grazes
+  /// it.
+  double clearance(const Vec3& from, const Vec3& direction, double through) const;
 
   const Clay& solid_;
   const PrintFrame& frame_;
@@ -75,41 +76,57 @@ double Drilling::way_through(const Vec3& from, const Vec3& direction) const {
   return reach_;
 }
 
-/// From the end of a pocket into its air, as far as half a drain's radius from its walls, if it is
-/// so wide: there a hole meets it however slanted it comes.
-std::optional<Vec3> Drilling::within_air(const Clay& hollow, const Vec3& end) const {
+double Drilling::clearance(const Vec3& from, const Vec3& direction, double through) const {
+  const double enough = options_.drain_radius_mm + options_.printer.min_wall_mm;
   const double step = 0.5 * solid_.options().voxel_mm;
-  const auto most_steps = static_cast<int>(3.0 * options_.drain_radius_mm / step);
-  Vec3 at = frame_.to_clay(end);
+  double least = 1.0;
+  for (double t = 0.0; t < through - step; t += step) {
+    const double depth = -solid_.distance_at(frame_.to_clay(from + t * direction));
+    least = std::min(least, depth / std::min(enough, through - t));
+  }
+  return std::max(least, 0.0);
+}
+
+/// From the end of a pocket into its air, as far as half a drain's radius from its walls: there a
+/// hole meets it however slanted it comes. No farther than `most_mm`.
+Vec3 Drilling::within_air(const Clay& hollow, const Vec3& end, double most_mm) const {
+  const double step = 0.5 * solid_.options().voxel_mm;
+  const Vec3 from = frame_.to_clay(end);
+  Vec3 at = from;
   double air = hollow.distance_at(at);
-  for (int n = 0; n < most_steps && air < 0.5 * options_.drain_radius_mm; ++n) {
-    const Vec3 from = at;
+  while (air < 0.5 * options_.drain_radius_mm) {
+    Vec3 next = at;
     for (int way = 0; way < 27; ++way) {
-      const Vec3 next = from + step * Vec3{way / 9 - 1.0, way / 3 % 3 - 1.0, way % 3 - 1.0};
-      const double there = hollow.distance_at(next);
-      if (there <= air) continue;
-      at = next;
+      const Vec3 beside = at + step * Vec3{way / 9 - 1.0, way / 3 % 3 - 1.0, way % 3 - 1.0};
+      const double there = hollow.distance_at(beside);
+      if (there <= air || length(beside - from) > most_mm) continue;
+      next = beside;
       air = there;
     }
-    if (at == from) break;
+    if (next == at) break;
+    at = next;
   }
-  if (air < step) return std::nullopt;
   return frame_.to_bed(at);
 }
 
-std::optional<PrintHole> Drilling::hole(const Clay& hollow, const mesh::LiquidPocket& pocket,
-                                        bool is_for_air) const {
+PrintHole Drilling::hole(const Clay& hollow, const mesh::LiquidPocket& pocket,
+                         bool is_for_air) const {
   const double up = is_for_air ? 1.0 : -1.0;
-  const auto in_air = within_air(hollow, is_for_air ? pocket.highest_mm : pocket.lowest_mm);
-  if (!in_air) return std::nullopt;
-  const Vec3 from = *in_air;
+  // A drain still takes in the low; air comes in somewhat below the highest place as well, where an
+  // ear is thick enough for a hole.
+  constexpr double kRadiiForAir = 3.0;
+  const double radius = options_.drain_radius_mm;
+  const Vec3 from = is_for_air ? within_air(hollow, pocket.highest_mm, kRadiiForAir * radius)
+                               : within_air(hollow, pocket.lowest_mm, radius);
   double least = std::numeric_limits<double>::infinity();
   PrintHole best;
   for (const Vec3& way : ways_out(up)) {
     // Straight unless another way is much shorter: drops run out of it best.
     constexpr double kSlantedCost = 1.5;
     const double through = way_through(from, way);
-    const double cost = through * (way.z == up ? 1.0 : kSlantedCost);
+    constexpr double kLeastClearance = 0.1;
+    const double cost = through * (way.z == up ? 1.0 : kSlantedCost) /
+                        std::max(kLeastClearance, clearance(from, way, through));
     if (cost >= least) continue;
     least = cost;
     best = {from + through * way, -way, is_for_air};
@@ -131,16 +148,23 @@ Result<Clay> hollowed(const Clay& solid, const std::vector<Drain>& drains, doubl
   return hollow;
 }
 
-Result<std::vector<PrintHole>> drained(const Clay& solid, const PrintFrame& frame,
-                                       const PreparationOptions& options, double wall_mm,
-                                       Clay& clay, const Pace& pace) {
+Result<std::vector<PrintHole>> drain_all(const Clay& solid, const PrintFrame& frame,
+                                         const PreparationOptions& options, double wall_mm,
+                                         Clay& clay, const Pace& pace) {
   constexpr int kMostRounds = 4;
   std::vector<PrintHole> holes;
   std::vector<Drain> drains;
+  std::size_t drained = 0;  // holes that the clay has
   for (int round = 0;; ++round) {
     const Pace part = pace.part(round / (kMostRounds + 1.0), (round + 1) / (kMostRounds + 1.0));
     auto hollow = hollowed(solid, drains, wall_mm, answering(part.part(0.0, 0.5)));
+    // Where a hole meets only an earlier one and no cavity, those before are all there can be.
+    if (!hollow && round > 1 && hollow.error().kind == ErrorKind::bad_input) {
+      holes.resize(drained);
+      return holes;
+    }
     if (!hollow) return hollow.error();
+    drained = holes.size();
     clay = std::move(hollow).value();
     if (round == kMostRounds) return holes;
     const TriangleMesh surface = surface_on_bed(clay, frame);
@@ -150,7 +174,11 @@ Result<std::vector<PrintHole>> drained(const Clay& solid, const PrintFrame& fram
     const Drilling drilling(solid, frame, options, length(bounds(surface).size()));
     const std::size_t before = holes.size();
     const auto drill = [&](const mesh::LiquidPocket& pocket, bool is_for_air) {
-      if (const auto hole = drilling.hole(clay, pocket, is_for_air)) holes.push_back(*hole);
+      const PrintHole hole = drilling.hole(clay, pocket, is_for_air);
+      const bool is_there = std::any_of(holes.begin(), holes.end(), [&](const PrintHole& other) {
+        return length(other.mouth_mm - hole.mouth_mm) < 0.5 * options.drain_radius_mm;
+      });
+      if (!is_there) holes.push_back(hole);
     };
     for (const mesh::LiquidPocket& pocket : pockets) {
       if (!drilling.is_inside(pocket.lowest_mm)) continue;
@@ -198,25 +226,39 @@ double pocket_pitch_mm(const TriangleMesh& mesh, double drain_radius_mm) {
 Result<std::vector<PrintHole>> hollow_with_drains(Clay& clay, const PrintFrame& frame,
                                                   const PreparationOptions& options,
                                                   double& wall_mm, const Pace& pace) {
-  constexpr int kTries = 4;
-  constexpr double kWorthIt = 0.5;  // of the films that the last wall left
+  // As much as a check counts.
+  const double least_mm2 = options.printer.min_wall_mm * options.printer.min_wall_mm;
   const Clay solid = copy_of(clay);
-  std::optional<Hollowed> best;
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    const Pace part = pace.part(1.0 * attempt / kTries, (attempt + 1.0) / kTries);
-    const double wall = options.wall_mm * (1.0 + kMostThicker * attempt / (kTries - 1));
-    Clay hollow = copy_of(solid);
-    auto holes = drained(solid, frame, options, wall, hollow, part.part(0.0, 0.8));
+  const auto hollow_by = [&](double thicker, const Pace& part) -> Result<Hollowed> {
+    Hollowed made{copy_of(solid), options.wall_mm * (1.0 + thicker), {}, 0.0};
+    auto holes = drain_all(solid, frame, options, made.wall_mm, made.clay, part.part(0.0, 0.8));
     if (!holes) return holes.error();
-    const double films = film_mm2(hollow, solid, frame, options, part.part(0.8, 1.0));
-    if (best && films > kWorthIt * best->film_mm2) break;
-    best = Hollowed{std::move(hollow), wall, std::move(holes).value(), films};
-    // As much as a check counts.
-    if (films <= options.printer.min_wall_mm * options.printer.min_wall_mm) break;
+    made.holes = std::move(holes).value();
+    made.film_mm2 = film_mm2(made.clay, solid, frame, options, part.part(0.8, 1.0));
+    return made;
+  };
+  const auto take = [&](Hollowed& made) {
+    clay = std::move(made.clay);
+    wall_mm = made.wall_mm;
+    return std::move(made.holes);
+  };
+  auto as_asked = hollow_by(0.0, pace.part(0.0, 0.25));
+  if (!as_asked) return as_asked.error();
+  if (as_asked.value().film_mm2 <= least_mm2) return take(as_asked.value());
+  // Where the thickest does not help, those between are not worth their time.
+  auto thickest = hollow_by(kMostThicker, pace.part(0.25, 0.5));
+  if (!thickest && thickest.error().kind != ErrorKind::bad_input) return thickest.error();
+  constexpr double kWorthIt = 0.5;
+  if (!thickest || thickest.value().film_mm2 > kWorthIt * as_asked.value().film_mm2) {
+    return take(as_asked.value());
   }
-  clay = std::move(best->clay);
-  wall_mm = best->wall_mm;
-  return std::move(best->holes);
+  for (const int third : {1, 2}) {
+    auto between =
+        hollow_by(kMostThicker * third / 3.0, pace.part(0.25 + 0.25 * third, 0.5 + 0.25 * third));
+    if (!between && between.error().kind != ErrorKind::bad_input) return between.error();
+    if (between && between.value().film_mm2 <= least_mm2) return take(between.value());
+  }
+  return take(thickest.value());
 }
 
 }  // namespace argil::io

@@ -26,7 +26,10 @@ inline constexpr double kMostThicker = 0.1;
 /// Hollows a clay that stands on the bed and drills drains until no cavity keeps liquid, in at most
 /// four rounds. Returns the holes; what still keeps liquid then, liquid_pockets tells. `wall_mm`
 /// becomes the wall: as asked, or somewhat more where that leaves less than half as much film
-/// between cavities that the printer cannot print. Errors  as Hollow; throws what no_throw catches.
+/// between cavities that the printer cannot print.
+///
+/// Errors  as Hollow; throws what no_throw catches.
+/// Cost    a hollow for each round, up to four times as much where there are films.
 Result<std::vector<PrintHole>> hollow_with_drains(Clay& clay, const PrintFrame& frame,
                                                   const PreparationOptions& options,
                                                   double& wall_mm, const Pace& pace);
