@@ -5,11 +5,13 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 #include "argil/core/closest_on_triangle.h"
 #include "argil/mesh/triangle_geometry.h"
 
 #include "compare/distance_sums.h"
+#include "compare/surface_cells.h"
 
 namespace argil::io {
 namespace {
@@ -17,14 +19,65 @@ namespace {
 /// Of the bound: pieces so small are not cut any more.
 constexpr double kLeastPiece = 0.02;
 
-/// A little inward of the middle: a triangle in the face between two cells belongs to the one with
-/// clay in it.
-Vec3 place_in_cell(const TriangleMesh& surface, std::size_t t, double voxel_mm) {
-  const mesh::Corners c = mesh::corners_of(surface, t);
-  return mesh::middle(c) - 0.001 * voxel_mm * normalized(mesh::area_normal(c));
-}
-
 }  // namespace
+
+/// The cells that triangles stand for, each once.
+class BlockProof::CellSet {
+ public:
+  /// A cell in which triangle `t` lies, or which is so far from it in sides.
+  void add(const PlacedCell& cell, std::size_t t, double distance) {
+    add(key_of(cell),
+        {cell.field.corners, cell.low_mm, cell.side_mm, static_cast<std::uint32_t>(t), 1},
+        distance);
+  }
+  void add(const CellSet& others) {
+    for (std::size_t i = 0; i < others.cells_.size(); ++i) {
+      add(others.found_[i].key, others.cells_[i], others.found_[i].distance);
+    }
+  }
+  const std::vector<Cell>& cells() const noexcept { return cells_; }
+
+ private:
+  using Key = std::array<int, 4>;
+  struct Hash {
+    std::size_t operator()(const Key& k) const noexcept {
+      return static_cast<std::size_t>(
+          static_cast<unsigned>(k[0]) * 73856093U ^ static_cast<unsigned>(k[1]) * 19349663U ^
+          static_cast<unsigned>(k[2]) * 83492791U ^ static_cast<unsigned>(k[3]) * 2654435761U);
+    }
+  };
+  struct Found {
+    Key key;
+    double distance = 0.0;
+  };
+
+  static Key key_of(const PlacedCell& cell) {
+    const Vec3 low = cell.field.per_mm * cell.low_mm;
+    return {static_cast<int>(std::lround(low.x)), static_cast<int>(std::lround(low.y)),
+            static_cast<int>(std::lround(low.z)), cell.field.level};
+  }
+  void add(const Key& key, const Cell& cell, double distance) {
+    const auto [known, is_new] = numbers_.try_emplace(key, cells_.size());
+    if (is_new) {
+      cells_.push_back(cell);
+      found_.push_back({key, distance});
+      return;
+    }
+    Cell& met = cells_[known->second];
+    double& nearest = found_[known->second].distance;
+    if (distance == 0.0 && nearest == 0.0) {
+      if (met.first + met.count == cell.first) met.count += cell.count;
+    } else if (distance < nearest) {
+      // From a nearer triangle the search begins on the right side of what is thin.
+      nearest = distance;
+      met = cell;
+    }
+  }
+
+  std::vector<Cell> cells_;
+  std::vector<Found> found_;  ///< of each cell
+  std::unordered_map<Key, std::size_t, Hash> numbers_;
+};
 
 BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
                        double bound_mm, const Pace& pace)
@@ -35,36 +88,27 @@ BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const Tria
       slopes_(voxel_mm_) {
   assert(bound_mm > 0.0);
   if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
-  std::vector<std::vector<Cell>> blocks(block_count(surface.triangles.size()));
+  std::vector<CellSet> blocks(block_count(surface.triangles.size()));
   in_blocks(surface.triangles.size(), pace, [&](std::size_t begin, std::size_t end) {
-    add_cells(begin, end, blocks[begin / kDistanceBlock]);
+    find_cells(begin, end, blocks[begin / kDistanceBlock]);
   });
-  std::size_t count = 0;
-  for (const std::vector<Cell>& block : blocks) count += block.size();
-  cells_.reserve(count);
-  for (const std::vector<Cell>& block : blocks) {
-    cells_.insert(cells_.end(), block.begin(), block.end());
-  }
+  CellSet all;
+  for (const CellSet& block : blocks) all.add(block);
+  cells_ = all.cells();
 }
 
-/// Triangles of one cell mostly follow one another; where they do not, the cell is asked twice.
-void BlockProof::add_cells(std::size_t begin, std::size_t end, std::vector<Cell>& cells) const {
+/// Of each triangle the cell that it lies in and those beside it that may have been its own: no
+/// cell that phi = 0 passes through is without a triangle in it or so near.
+void BlockProof::find_cells(std::size_t begin, std::size_t end, CellSet& cells) const {
   FieldSampler field(clay_);
   for (std::size_t t = begin; t < end; ++t) {
-    const Vec3 at = place_in_cell(surface_, t, voxel_mm_);
-    if (!cells.empty()) {
-      Cell& last = cells.back();
-      const Vec3 in = (at - last.low_mm) / last.side_mm;
-      if (std::min({in.x, in.y, in.z}) >= 0.0 && std::max({in.x, in.y, in.z}) < 1.0) {
-        ++last.count;
-        continue;
-      }
-    }
-    const FieldCell cell = field.cell_at(at);
-    if (cell.per_mm == 0.0) continue;
-    const double side_mm = 1.0 / cell.per_mm;
-    cells.push_back(
-        {cell.corners, at - side_mm * cell.fraction, side_mm, static_cast<std::uint32_t>(t), 1});
+    const Vec3 at = inward_of(mesh::corners_of(surface_, t), voxel_mm_);
+    const PlacedCell own = placed_cell_at(at, field);
+    if (own.side_mm == 0.0) continue;
+    if (is_crossed(own.field)) cells.add(own, t, 0.0);
+    for_each_crossed_beside(at, own, field, [&](const PlacedCell& cell, double distance) {
+      cells.add(cell, t, distance);
+    });
   }
 }
 

@@ -31,8 +31,8 @@ namespace argil::io {
 /// What that does not settle is cut in four.
 class BlockProof final : public mesh::BoundProof {
  public:
-  /// The cells are those that `surface`, as extracted, passes through; points nearer to `left_out`
-  /// do not count. All must outlive this. Throws Interrupted.
+  /// The cells are those with a part of phi = 0 that `surface`, as extracted, stands for; points
+  /// nearer to `left_out` do not count. All must outlive this. Throws Interrupted.
   BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
              double bound_mm, const Pace& pace);
 
@@ -45,7 +45,7 @@ class BlockProof final : public mesh::BoundProof {
                      std::span<std::uint8_t> is_near) const override;
 
  private:
-  /// A cell and the triangles of the surface that lie in it, `count` from `first` on.
+  /// A cell and triangles of the surface that lie in it or beside it, `count` from `first` on.
   struct Cell {
     std::array<float, 8> corners;
     Vec3 low_mm;
@@ -54,8 +54,9 @@ class BlockProof final : public mesh::BoundProof {
     std::uint32_t count = 0;
   };
   class CellQuestion;
+  class CellSet;
 
-  void add_cells(std::size_t begin, std::size_t end, std::vector<Cell>& cells) const;
+  void find_cells(std::size_t begin, std::size_t end, CellSet& cells) const;
   bool is_left_out(const Vec3& at, const Cell& cell) const;
 
   const TriangleMesh& surface_;

@@ -47,30 +47,17 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
 
 /// The cell of triangle `t` and of those that follow it in the same; no side where phi has no cell.
 FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const {
-  // A little inward: a triangle in the face between two cells belongs to the one with clay in it.
-  constexpr double kInwardVoxels = 0.001;
-  const auto inward_of = [&](const mesh::Corners& c) {
-    return mesh::middle(c) - kInwardVoxels * voxel_mm_ * normalized(mesh::area_normal(c));
-  };
-  Cell cell;
-  const Vec3 first = inward_of(mesh::corners_of(surface_, t));
-  cell.field = field.cell_at(first);
-  cell.first = t;
-  cell.last = t + 1;
-  if (cell.field.per_mm == 0.0) return cell;
-  cell.side_mm = 1.0 / cell.field.per_mm;
-  cell.low_mm = first - cell.side_mm * cell.field.fraction;
+  Cell cell{cell_of_triangle(mesh::corners_of(surface_, t), voxel_mm_, field), t, t + 1};
+  if (cell.side_mm == 0.0) return cell;
   const auto is_within = [&](const mesh::Corners& c) {
     const Vec3 at = cell.field.per_mm * (mesh::middle(c) - cell.low_mm);
     const double low = std::min({at.x, at.y, at.z});
     const double high = std::max({at.x, at.y, at.z});
-    // Where it is not near a face the step inward, which takes a root, changes nothing.
+    // Where it is not near a face it is in this cell or in none near.
     constexpr double kNear = 2.0 * kInwardVoxels;
-    if (low < -kNear || high > 1.0 + kNear) return false;
+    if (low < -kBesideCell || high > 1.0 + kBesideCell) return false;
     if (low > kNear && high < 1.0 - kNear) return true;
-    const Vec3 inward = cell.field.per_mm * (inward_of(c) - cell.low_mm);
-    return std::min({inward.x, inward.y, inward.z}) >= 0.0 &&
-           std::max({inward.x, inward.y, inward.z}) < 1.0;
+    return cell.is(cell_of_triangle(c, voxel_mm_, field));
   };
   while (cell.last < surface_.triangles.size() &&
          is_within(mesh::corners_of(surface_, cell.last))) {
