@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/engine/field_sampler.h"
 
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 
 #include "clay/clay_access.h"
 #include "field/level_stack.h"
 #include "raycast/field_ray.h"
+#include "raycast/octant_store.h"
 
 namespace argil {
 namespace {
@@ -17,23 +21,6 @@ constexpr double kReachVoxels = 0.875;
 
 }  // namespace
 
-struct FieldSampler::State {
-  explicit State(const LevelStack& levels)
-      : stack(levels), cells(levels), per_mm(1.0 / levels.voxel_mm(0)) {}
-
-  /// Where a point lies in its cell, which becomes `cell`: points that follow one another mostly
-  /// share one.
-  void find(const Vec3& point_mm);
-
-  const LevelStack& stack;
-  LeafCells cells;
-  double per_mm;       ///< cells of level 0
-  FieldCell cell;      ///< of the last point
-  Coord node;          ///< its low corner; where the cell has a level of its own
-  double scale = 0.0;  ///< cells of its level in one of level 0; 0: no point was asked for
-  Trilinear field{{}};
-};
-
 namespace {
 
 /// Of what an int holds. std::floor is a call where the processor may lack the instruction.
@@ -42,13 +29,37 @@ int floor_of(double x) noexcept {
   return toward_zero - (static_cast<double>(toward_zero) > x ? 1 : 0);
 }
 
+/// The corners of a cell, as FieldCell has them, from the octant that it is in.
+std::array<float, 8> corners_of(const OctantStore::Values& octant, const Coord& low) noexcept {
+  const float* const at =
+      &octant[static_cast<std::size_t>((low.x() & 3) * 25 + (low.y() & 3) * 5 + (low.z() & 3))];
+  return {at[0], at[1], at[5], at[6], at[25], at[26], at[30], at[31]};
+}
+
 }  // namespace
+
+struct FieldSampler::State {
+  explicit State(const LevelStack& levels)
+      : stack(levels), octants(levels), per_mm(1.0 / levels.voxel_mm(0)) {}
+
+  /// Where a point lies in its cell, which becomes `cell`: points that follow one another mostly
+  /// share one.
+  void find(const Vec3& point_mm);
+
+  const LevelStack& stack;
+  OctantStore octants;
+  double per_mm;       ///< cells of level 0
+  FieldCell cell;      ///< of the last point
+  Coord node;          ///< its low corner; where the cell has a level of its own
+  double scale = 0.0;  ///< cells of its level in one of level 0; 0: no point was asked for
+  Trilinear field{{}};
+};
 
 void FieldSampler::State::find(const Vec3& point_mm) {
   assert(is_finite(point_mm));
   const Vec3 at = per_mm * point_mm;
   const Coord finest(floor_of(at.x), floor_of(at.y), floor_of(at.z));
-  const int level = cells.finest_level(finest);
+  const int level = octants.finest_level(finest);
   if (level < 0) {
     cell = {};
     cell.corners.fill(stack.sample(stack.top(), finest >> stack.top()));
@@ -59,10 +70,9 @@ void FieldSampler::State::find(const Vec3& point_mm) {
   }
   const Coord low = finest >> level;
   if (scale == 0.0 || level != cell.level || low != node) {
-    cells.open(level, finest);
     node = low;
     scale = std::ldexp(1.0, -level);
-    cell.corners = cells.corners(node);
+    cell.corners = corners_of(octants.octant(level, low & ~3), low);
     cell.level = level;
     cell.per_mm = scale * per_mm;
     field = Trilinear(cell.corners);

@@ -85,6 +85,7 @@ BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const Tria
       clay_(clay),
       bound_mm_(bound_mm),
       voxel_mm_(clay.options().voxel_mm),
+      samplers_(clay),
       slopes_(voxel_mm_) {
   assert(bound_mm > 0.0);
   if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
@@ -180,8 +181,8 @@ namespace {
 /// Asks for one triangle after another.
 class TriangleQuestion {
  public:
-  TriangleQuestion(double bound_mm, double voxel_mm, const Clay& clay, BlockSlopes& slopes)
-      : bound_mm_(bound_mm), voxel_mm_(voxel_mm), field_(clay), slopes_(slopes) {}
+  TriangleQuestion(double bound_mm, double voxel_mm, FieldSampler& field, BlockSlopes& slopes)
+      : bound_mm_(bound_mm), voxel_mm_(voxel_mm), field_(field), slopes_(slopes) {}
 
   bool is_near(const mesh::Corners& c) {
     const double side = mesh::longest_side(c);
@@ -292,7 +293,7 @@ class TriangleQuestion {
 
   double bound_mm_;
   double voxel_mm_;
-  FieldSampler field_;
+  FieldSampler& field_;
   BlockSlopes& slopes_;
   struct Recent {
     CellIndex block{};
@@ -306,7 +307,8 @@ class TriangleQuestion {
 void BlockProof::ask_triangles(std::span<const mesh::Corners> triangles,
                                std::span<std::uint8_t> is_near) const {
   assert(triangles.size() == is_near.size());
-  TriangleQuestion question(bound_mm_, voxel_mm_, clay_, slopes_);
+  SamplerPool::Lent lent(samplers_);
+  TriangleQuestion question(bound_mm_, voxel_mm_, lent.sampler(), slopes_);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     is_near[t] = question.is_near(triangles[t]) ? 1 : 0;
   }

@@ -15,6 +15,7 @@
 #include "argil/mesh/decimate.h"
 
 #include "compare/block_slopes.h"
+#include "compare/sampler_pool.h"
 
 namespace argil::io {
 
@@ -65,6 +66,7 @@ class BlockProof final : public mesh::BoundProof {
   double bound_mm_;
   double voxel_mm_;
   std::vector<Cell> cells_;
+  mutable SamplerPool samplers_;
   mutable BlockSlopes slopes_;
 };
 

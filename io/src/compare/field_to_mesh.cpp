@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "argil/core/closest_on_triangle.h"
 
@@ -261,8 +262,7 @@ DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
 }
 
 /// The greatest distance in the cell of which this is the first triangle, if it exceeds `found`.
-double FieldToMesh::greatest_in(std::uint32_t first, double found) const {
-  FieldSampler field(clay_);
+double FieldToMesh::greatest_in(std::uint32_t first, double found, FieldSampler& field) const {
   const Cell cell = cell_of(first, field);
   const Trilinear phi(cell.field.corners);
   Bulge bulge;
@@ -306,9 +306,10 @@ mesh::DistanceSummary FieldToMesh::measure(const Pace& pace) {
   measure_vertices(pace.part(0.0, 0.3));
   const DistanceSums found_first = measure_cells(pace.part(0.3, 0.7));
   mesh::DistanceSummary summary = found_first.summary();
-  summary.max_mm = greatest_by_bound(
-      bound_, found_first.max, pace.part(0.7, 1.0),
-      [&](std::uint32_t first, double found) { return greatest_in(first, found); });
+  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.7, 1.0), [&] {
+    return [this, field = std::make_unique<FieldSampler>(clay_)](
+               std::uint32_t first, double found) { return greatest_in(first, found, *field); };
+  });
   return summary;
 }
 

@@ -61,7 +61,7 @@ class FieldToMesh {
                 DistanceSums& sums) const;
   double bound_of(const std::vector<Sample>& points) const;
   double bound_at_vertices(const Cell& cell) const;
-  double greatest_in(std::uint32_t first, double found) const;
+  double greatest_in(std::uint32_t first, double found, FieldSampler& field) const;
   double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
                  double found) const;
 
