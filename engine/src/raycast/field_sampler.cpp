@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/engine/field_sampler.h"
 
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <cstddef>
 #include <memory>
 
 #include "clay/clay_access.h"
@@ -27,13 +25,6 @@ namespace {
 int floor_of(double x) noexcept {
   const int toward_zero = static_cast<int>(x);
   return toward_zero - (static_cast<double>(toward_zero) > x ? 1 : 0);
-}
-
-/// The corners of a cell, as FieldCell has them, from the octant that it is in.
-std::array<float, 8> corners_of(const OctantStore::Values& octant, const Coord& low) noexcept {
-  const float* const at =
-      &octant[static_cast<std::size_t>((low.x() & 3) * 25 + (low.y() & 3) * 5 + (low.z() & 3))];
-  return {at[0], at[1], at[5], at[6], at[25], at[26], at[30], at[31]};
 }
 
 }  // namespace
@@ -72,7 +63,7 @@ void FieldSampler::State::find(const Vec3& point_mm) {
   if (scale == 0.0 || level != cell.level || low != node) {
     node = low;
     scale = std::ldexp(1.0, -level);
-    cell.corners = corners_of(octants.octant(level, low & ~3), low);
+    cell.corners = octants.corners(level, low);
     cell.level = level;
     cell.per_mm = scale * per_mm;
     field = Trilinear(cell.corners);

@@ -46,6 +46,30 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
   }
 }
 
+namespace {
+
+/// Whether a point, in sides of a cell from its low corner, lies behind one face of it and phi = 0
+/// passes through that, so that it does through the cell behind.
+bool lies_in_crossed_neighbour(const Vec3& at, const FieldCell& cell) {
+  int beyond = 0;
+  std::size_t across = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (at[axis] >= -2.0 * kInwardVoxels && at[axis] <= 1.0 + 2.0 * kInwardVoxels) continue;
+    ++beyond;
+    across = axis;
+  }
+  if (beyond != 1) return false;
+  const std::size_t step = std::size_t{4} >> across;
+  int inside = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const bool is_high = (corner & step) != 0;
+    if (is_high == (at[across] > 0.5) && cell.corners[corner] < 0.0F) ++inside;
+  }
+  return inside != 0 && inside != 4;
+}
+
+}  // namespace
+
 /// The cell of triangle `t` and of those that follow it in the same; no side where phi has no cell.
 FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const {
   Cell cell{cell_of_triangle(mesh::corners_of(surface_, t), voxel_mm_, field), t, t + 1};
@@ -58,6 +82,7 @@ FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const
     constexpr double kNear = 2.0 * kInwardVoxels;
     if (low < -kBesideCell || high > 1.0 + kBesideCell) return false;
     if (low > kNear && high < 1.0 - kNear) return true;
+    if (lies_in_crossed_neighbour(at, cell.field)) return false;
     return cell.is(cell_of_triangle(c, voxel_mm_, field));
   };
   while (cell.last < surface_.triangles.size() &&
