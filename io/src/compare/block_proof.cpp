@@ -192,7 +192,12 @@ class TriangleQuestion {
       // Its own middle beyond: then no smaller piece there is near.
       if (std::abs(value.distance_mm) > bound_mm_) return false;
       const Piece piece = piece_of(c);
-      if (is_near_by(slopes_in(piece), c, at, value)) return true;
+      const Slopes slopes = slopes_in(piece);
+      if (is_near_by(slopes, c, at, value)) return true;
+      const bool is_mixed = slopes.level == Slopes::kMixed;
+      if (is_mixed && side <= kWidestMixed * voxel_mm_ && is_near_across(piece, c, at, value)) {
+        return true;
+      }
       if (side <= voxel_mm_ && is_near_by_corners(piece)) return true;
       if (side <= kLeastPiece * bound_mm_) return false;
     }
@@ -206,7 +211,8 @@ class TriangleQuestion {
   }
 
  private:
-  static constexpr double kWidest = 4.0;  ///< piece that is asked, in voxels
+  static constexpr double kWidest = 6.0;       ///< piece that is asked, in voxels
+  static constexpr double kWidestMixed = 2.5;  ///< where levels meet: cell by cell
 
   /// What a piece of a triangle lies in.
   struct Piece {
@@ -264,31 +270,54 @@ class TriangleQuestion {
     return most + more <= bound_mm_;
   }
 
+  /// How far phi at most is from a linear function, whatever the levels of the cells: as far as at
+  /// corners of the parts of cells in the box, since their difference is linear along each axis.
+  bool is_near_across(const Piece& piece, const mesh::Corners& c, const Vec3& at,
+                      const FieldValue& value) {
+    const auto linear = [&](const Vec3& p) {
+      return value.distance_mm + dot(value.gradient, p - at);
+    };
+    double most = 0.0;
+    for (const Vec3& corner : c) most = std::max(most, std::abs(linear(corner)));
+    const double enough = bound_mm_ - most;
+    return enough > 0.0 && for_each_part_corner(piece, [&](const Vec3& p, double phi) {
+             return std::abs(phi - linear(p)) <= enough;
+           });
+  }
+
   /// In a box phi is greatest and least at its corners, since it is linear along each axis.
   bool is_near_by_corners(const Piece& piece) {
-    bool is_near = true;
+    return for_each_part_corner(
+        piece, [&](const Vec3&, double phi) { return std::abs(phi) <= bound_mm_; });
+  }
+
+  /// Calls `is_good(p, phi)` for the corners of the parts of cells that lie in the box, until it
+  /// says no; whether it never did.
+  template <class IsGood>
+  bool for_each_part_corner(const Piece& piece, const IsGood& is_good) {
+    bool all_good = true;
     for_each_index(piece.first, piece.last, [&](const CellIndex& index) {
-      if (!is_near) return;
+      if (!all_good) return;
       const Vec3 middle = middle_of_cell(index, voxel_mm_);
       const FieldCell cell = field_.cell_at(middle);
-      const auto fraction = [&](const Vec3& p) {
-        Vec3 at = cell.fraction;
+      const auto within = [&](const Vec3& p) {
+        Vec3 in = p;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double half = 0.5 * voxel_mm_;
-          at[axis] += cell.per_mm * std::clamp(p[axis] - middle[axis], -half, half);
+          in[axis] = std::clamp(p[axis], middle[axis] - half, middle[axis] + half);
         }
-        return at;
+        return in;
       };
       const Trilinear phi(cell.corners);
-      const Vec3 low = fraction(piece.box.min);
-      const Vec3 high = fraction(piece.box.max);
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 at{(corner & 4) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                      (corner & 1) != 0 ? high.z : low.z};
-        is_near = is_near && std::abs(phi.value(at)) <= bound_mm_;
+      const Vec3 low = within(piece.box.min);
+      const Vec3 high = within(piece.box.max);
+      for (int corner = 0; corner < 8 && all_good; ++corner) {
+        const Vec3 p{(corner & 4) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                     (corner & 1) != 0 ? high.z : low.z};
+        all_good = is_good(p, phi.value(cell.fraction + cell.per_mm * (p - middle)));
       }
     });
-    return is_near;
+    return all_good;
   }
 
   double bound_mm_;

@@ -27,8 +27,9 @@ namespace argil::io {
 ///
 /// The mesh to the field, triangle by triangle, in pieces of some voxels: along a way from the
 /// middle phi is no farther from its linear continuation than its slopes in the cells there are
-/// from that at the middle. Where levels meet phi may jump: there it is greatest and least at
-/// corners of the parts of cells in a box around the piece, since it is linear along each axis.
+/// from that at the middle. Where levels meet phi may jump: there its difference from the linear
+/// continuation is greatest and least at corners of the parts of cells in a box around the piece,
+/// since both are linear along each axis.
 /// What that does not settle is cut in four.
 class BlockProof final : public mesh::BoundProof {
  public:
