@@ -8,6 +8,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "field/sampling.h"
+
 namespace argil {
 namespace {
 
@@ -200,10 +202,17 @@ int LeafCells::finest_level(const Coord& cell) {
   return region_level_;
 }
 
+/// Up or down from the level that was found last, since levels are nested.
 int LeafCells::look_up_level(const Coord& cell) {
-  int level = stack_.top();
-  if (leaf(level, cell >> level) == nullptr) return -1;
-  while (level > 0 && leaf(level - 1, cell >> (level - 1)) != nullptr) --level;
+  int level = std::max(region_level_, 0);
+  const auto has = [&](int of) { return leaf(of, cell >> of) != nullptr; };
+  if (has(level)) {
+    while (level > 0 && has(level - 1)) --level;
+    return level;
+  }
+  do {
+    if (++level > stack_.top()) return -1;
+  } while (!has(level));
   return level;
 }
 
@@ -229,21 +238,36 @@ const float* LeafCells::values_beyond(const Coord& relative) {
   return leaves_[at];
 }
 
+struct LeafCells::Found {
+  LeafCells& cells;
+
+  int top() const noexcept { return cells.stack_.top(); }
+  const float* values(int level, const Coord& node) const {
+    return cells.finders_[static_cast<std::size_t>(level)].values(node);
+  }
+  float constant(const Coord& node) const { return cells.stack_.grid(top()).tree().getValue(node); }
+};
+
 float LeafCells::stored(const Coord& relative) {
   const float* const values = values_beyond(relative);
   if (values != nullptr) return values[leaf_offset(relative)];
-  return stack_.sample(level_, leaf_origin_ + relative);
+  return sample_of(Found{*this}, level_, leaf_origin_ + relative);
 }
 
-float LeafCells::value(const Coord& relative) {
-  if (level_ == 0) return stored(relative);
+/// Whether a finer level has the octant with this node.
+bool LeafCells::is_finer(const Coord& relative) {
+  if (level_ == 0) return false;
   const Coord octant = relative >> 2;
   const auto bit = 1U << static_cast<unsigned>((octant.x() * 3 + octant.y()) * 3 + octant.z());
   if ((finer_known_ & bit) == 0) {
     finer_known_ |= bit;
     if (leaf(level_ - 1, (leaf_origin_ + relative) << 1) != nullptr) finer_ |= bit;
   }
-  if ((finer_ & bit) == 0) return stored(relative);
+  return (finer_ & bit) != 0;
+}
+
+float LeafCells::value(const Coord& relative) {
+  if (!is_finer(relative)) return stored(relative);
   const Coord node = leaf_origin_ + relative;
   int finest = level_ - 1;
   while (finest > 0 && leaf(finest - 1, node << (level_ - finest + 1)) != nullptr) --finest;
@@ -271,6 +295,31 @@ std::array<float, 8> LeafCells::corners(const Coord& cell) {
         value(low.offsetBy(corner >> 2, corner >> 1 & 1, corner & 1));
   }
   return v;
+}
+
+void LeafCells::octant(const Coord& low, std::array<float, 125>& values) {
+  constexpr int kHalf = kLeafSide / 2;
+  const Coord first = low - leaf_origin_;
+  assert((first & (kHalf - 1)) == Coord(0, 0, 0));
+  // The octant itself and the sides, edges and corner of the seven behind it.
+  for (int part = 0; part < 8; ++part) {
+    const Coord from(kHalf * (part >> 2), kHalf * (part >> 1 & 1), kHalf * (part & 1));
+    const auto end = [](int begin) { return begin == 0 ? kHalf : kHalf + 1; };
+    const float* const at =
+        part == 0 || !is_finer(first + from) ? values_beyond(first + from) : nullptr;
+    for (int i = from.x(); i < end(from.x()); ++i) {
+      for (int j = from.y(); j < end(from.y()); ++j) {
+        float* const to = &values[static_cast<std::size_t>(25 * i + 5 * j)];
+        if (at != nullptr) {
+          std::copy(at + leaf_offset(first.offsetBy(i, j, from.z())),
+                    at + leaf_offset(first.offsetBy(i, j, from.z())) + (end(from.z()) - from.z()),
+                    to + from.z());
+          continue;
+        }
+        for (int k = from.z(); k < end(from.z()); ++k) to[k] = value(first.offsetBy(i, j, k));
+      }
+    }
+  }
 }
 
 std::optional<FieldEntry> first_entry(const LevelStack& stack, const Vec3& origin,

@@ -31,12 +31,19 @@ class LeafCells {
   /// i, j, k nodes above the low one.
   std::array<float, 8> corners(const Coord& cell);
 
+  /// The nodes of an octant of the open leaf that no finer leaf covers and those next to it: node
+  /// (i, j, k) from its low corner on, 0 to 4 each, is number 25 i + 5 j + k.
+  void octant(const Coord& low, std::array<float, 125>& values);
+
  private:
+  /// As sampling.h asks for leaves.
+  struct Found;
   const VdbLeaf* leaf(int level, const Coord& node) {
     return finders_[static_cast<std::size_t>(level)].leaf(node);
   }
   int look_up_level(const Coord& cell);
   const float* values_beyond(const Coord& relative);
+  bool is_finer(const Coord& relative);
   float value(const Coord& relative);
   float stored(const Coord& relative);
 

@@ -3,10 +3,12 @@
 
 #include <cassert>
 #include <cmath>
+#include <memory>
 
 #include "clay/clay_access.h"
 #include "field/level_stack.h"
 #include "raycast/field_ray.h"
+#include "raycast/octant_store.h"
 
 namespace argil {
 namespace {
@@ -16,23 +18,6 @@ namespace {
 constexpr double kReachVoxels = 0.875;
 
 }  // namespace
-
-struct FieldSampler::State {
-  explicit State(const LevelStack& levels)
-      : stack(levels), cells(levels), per_mm(1.0 / levels.voxel_mm(0)) {}
-
-  /// Where a point lies in its cell, which becomes `cell`: points that follow one another mostly
-  /// share one.
-  void find(const Vec3& point_mm);
-
-  const LevelStack& stack;
-  LeafCells cells;
-  double per_mm;       ///< cells of level 0
-  FieldCell cell;      ///< of the last point
-  Coord node;          ///< its low corner; where the cell has a level of its own
-  double scale = 0.0;  ///< cells of its level in one of level 0; 0: no point was asked for
-  Trilinear field{{}};
-};
 
 namespace {
 
@@ -44,11 +29,28 @@ int floor_of(double x) noexcept {
 
 }  // namespace
 
+struct FieldSampler::State {
+  explicit State(const LevelStack& levels)
+      : stack(levels), octants(levels), per_mm(1.0 / levels.voxel_mm(0)) {}
+
+  /// Where a point lies in its cell, which becomes `cell`: points that follow one another mostly
+  /// share one.
+  void find(const Vec3& point_mm);
+
+  const LevelStack& stack;
+  OctantStore octants;
+  double per_mm;       ///< cells of level 0
+  FieldCell cell;      ///< of the last point
+  Coord node;          ///< its low corner; where the cell has a level of its own
+  double scale = 0.0;  ///< cells of its level in one of level 0; 0: no point was asked for
+  Trilinear field{{}};
+};
+
 void FieldSampler::State::find(const Vec3& point_mm) {
   assert(is_finite(point_mm));
   const Vec3 at = per_mm * point_mm;
   const Coord finest(floor_of(at.x), floor_of(at.y), floor_of(at.z));
-  const int level = cells.finest_level(finest);
+  const int level = octants.finest_level(finest);
   if (level < 0) {
     cell = {};
     cell.corners.fill(stack.sample(stack.top(), finest >> stack.top()));
@@ -59,10 +61,9 @@ void FieldSampler::State::find(const Vec3& point_mm) {
   }
   const Coord low = finest >> level;
   if (scale == 0.0 || level != cell.level || low != node) {
-    cells.open(level, finest);
     node = low;
     scale = std::ldexp(1.0, -level);
-    cell.corners = cells.corners(node);
+    cell.corners = octants.corners(level, low);
     cell.level = level;
     cell.per_mm = scale * per_mm;
     field = Trilinear(cell.corners);

@@ -15,12 +15,13 @@
 namespace argil::io {
 
 /// The greatest value that is at least `found` among items of which only a bound is known.
-/// `refine(item, found)` gives an item's own greatest value, or anything not above `found` when it
-/// does not exceed that. Items with the greatest bounds come first, so that the rest can be left
-/// alone; in blocks of fixed size, so that bits do not depend on threads.
-template <class Refine>
+/// `make_refine()` is asked once for each block of items: its `refine(item, found)` gives an item's
+/// own greatest value, or anything not above `found` when it does not exceed that. Items with the
+/// greatest bounds come first, so that the rest can be left alone; in blocks of fixed size, so that
+/// bits do not depend on threads.
+template <class MakeRefine>
 double greatest_by_bound(const std::vector<float>& bounds, double found, const Pace& pace,
-                         const Refine& refine) {
+                         const MakeRefine& make_refine) {
   constexpr std::size_t kBlock = 256;
   std::vector<std::pair<float, std::uint32_t>> open;
   for (std::uint32_t i = 0; i < bounds.size(); ++i) {
@@ -38,6 +39,7 @@ double greatest_by_bound(const std::vector<float>& bounds, double found, const P
     std::vector<double> greatest((end - begin + kBlock - 1) / kBlock, found);
     tbb::parallel_for(std::size_t{0}, greatest.size(), [&](std::size_t block) {
       double& most = greatest[block];
+      const auto refine = make_refine();
       const std::size_t stop = std::min(end, begin + (block + 1) * kBlock);
       for (std::size_t i = begin + block * kBlock; i < stop; ++i) {
         if (-static_cast<double>(open[i].first) <= most) break;

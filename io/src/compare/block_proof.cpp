@@ -5,11 +5,13 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 #include "argil/core/closest_on_triangle.h"
 #include "argil/mesh/triangle_geometry.h"
 
 #include "compare/distance_sums.h"
+#include "compare/surface_cells.h"
 
 namespace argil::io {
 namespace {
@@ -17,14 +19,65 @@ namespace {
 /// Of the bound: pieces so small are not cut any more.
 constexpr double kLeastPiece = 0.02;
 
-/// A little inward of the middle: a triangle in the face between two cells belongs to the one with
-/// clay in it.
-Vec3 place_in_cell(const TriangleMesh& surface, std::size_t t, double voxel_mm) {
-  const mesh::Corners c = mesh::corners_of(surface, t);
-  return mesh::middle(c) - 0.001 * voxel_mm * normalized(mesh::area_normal(c));
-}
-
 }  // namespace
+
+/// The cells that triangles stand for, each once.
+class BlockProof::CellSet {
+ public:
+  /// A cell in which triangle `t` lies, or which is so far from it in sides.
+  void add(const PlacedCell& cell, std::size_t t, double distance) {
+    add(key_of(cell),
+        {cell.field.corners, cell.low_mm, cell.side_mm, static_cast<std::uint32_t>(t), 1},
+        distance);
+  }
+  void add(const CellSet& others) {
+    for (std::size_t i = 0; i < others.cells_.size(); ++i) {
+      add(others.found_[i].key, others.cells_[i], others.found_[i].distance);
+    }
+  }
+  const std::vector<Cell>& cells() const noexcept { return cells_; }
+
+ private:
+  using Key = std::array<int, 4>;
+  struct Hash {
+    std::size_t operator()(const Key& k) const noexcept {
+      return static_cast<std::size_t>(
+          static_cast<unsigned>(k[0]) * 73856093U ^ static_cast<unsigned>(k[1]) * 19349663U ^
+          static_cast<unsigned>(k[2]) * 83492791U ^ static_cast<unsigned>(k[3]) * 2654435761U);
+    }
+  };
+  struct Found {
+    Key key;
+    double distance = 0.0;
+  };
+
+  static Key key_of(const PlacedCell& cell) {
+    const Vec3 low = cell.field.per_mm * cell.low_mm;
+    return {static_cast<int>(std::lround(low.x)), static_cast<int>(std::lround(low.y)),
+            static_cast<int>(std::lround(low.z)), cell.field.level};
+  }
+  void add(const Key& key, const Cell& cell, double distance) {
+    const auto [known, is_new] = numbers_.try_emplace(key, cells_.size());
+    if (is_new) {
+      cells_.push_back(cell);
+      found_.push_back({key, distance});
+      return;
+    }
+    Cell& met = cells_[known->second];
+    double& nearest = found_[known->second].distance;
+    if (distance == 0.0 && nearest == 0.0) {
+      if (met.first + met.count == cell.first) met.count += cell.count;
+    } else if (distance < nearest) {
+      // From a nearer triangle the search begins on the right side of what is thin.
+      nearest = distance;
+      met = cell;
+    }
+  }
+
+  std::vector<Cell> cells_;
+  std::vector<Found> found_;  ///< of each cell
+  std::unordered_map<Key, std::size_t, Hash> numbers_;
+};
 
 BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
                        double bound_mm, const Pace& pace)
@@ -32,39 +85,31 @@ BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const Tria
       clay_(clay),
       bound_mm_(bound_mm),
       voxel_mm_(clay.options().voxel_mm),
+      samplers_(clay),
       slopes_(voxel_mm_) {
   assert(bound_mm > 0.0);
   if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
-  std::vector<std::vector<Cell>> blocks(block_count(surface.triangles.size()));
+  std::vector<CellSet> blocks(block_count(surface.triangles.size()));
   in_blocks(surface.triangles.size(), pace, [&](std::size_t begin, std::size_t end) {
-    add_cells(begin, end, blocks[begin / kDistanceBlock]);
+    find_cells(begin, end, blocks[begin / kDistanceBlock]);
   });
-  std::size_t count = 0;
-  for (const std::vector<Cell>& block : blocks) count += block.size();
-  cells_.reserve(count);
-  for (const std::vector<Cell>& block : blocks) {
-    cells_.insert(cells_.end(), block.begin(), block.end());
-  }
+  CellSet all;
+  for (const CellSet& block : blocks) all.add(block);
+  cells_ = all.cells();
 }
 
-/// Triangles of one cell mostly follow one another; where they do not, the cell is asked twice.
-void BlockProof::add_cells(std::size_t begin, std::size_t end, std::vector<Cell>& cells) const {
+/// Of each triangle the cell that it lies in and those beside it that may have been its own: no
+/// cell that phi = 0 passes through is without a triangle in it or so near.
+void BlockProof::find_cells(std::size_t begin, std::size_t end, CellSet& cells) const {
   FieldSampler field(clay_);
   for (std::size_t t = begin; t < end; ++t) {
-    const Vec3 at = place_in_cell(surface_, t, voxel_mm_);
-    if (!cells.empty()) {
-      Cell& last = cells.back();
-      const Vec3 in = (at - last.low_mm) / last.side_mm;
-      if (std::min({in.x, in.y, in.z}) >= 0.0 && std::max({in.x, in.y, in.z}) < 1.0) {
-        ++last.count;
-        continue;
-      }
-    }
-    const FieldCell cell = field.cell_at(at);
-    if (cell.per_mm == 0.0) continue;
-    const double side_mm = 1.0 / cell.per_mm;
-    cells.push_back(
-        {cell.corners, at - side_mm * cell.fraction, side_mm, static_cast<std::uint32_t>(t), 1});
+    const Vec3 at = inward_of(mesh::corners_of(surface_, t), voxel_mm_);
+    const PlacedCell own = placed_cell_at(at, field);
+    if (own.side_mm == 0.0) continue;
+    if (is_crossed(own.field)) cells.add(own, t, 0.0);
+    for_each_crossed_beside(at, own, field, [&](const PlacedCell& cell, double distance) {
+      cells.add(cell, t, distance);
+    });
   }
 }
 
@@ -136,8 +181,8 @@ namespace {
 /// Asks for one triangle after another.
 class TriangleQuestion {
  public:
-  TriangleQuestion(double bound_mm, double voxel_mm, const Clay& clay, BlockSlopes& slopes)
-      : bound_mm_(bound_mm), voxel_mm_(voxel_mm), field_(clay), slopes_(slopes) {}
+  TriangleQuestion(double bound_mm, double voxel_mm, FieldSampler& field, BlockSlopes& slopes)
+      : bound_mm_(bound_mm), voxel_mm_(voxel_mm), field_(field), slopes_(slopes) {}
 
   bool is_near(const mesh::Corners& c) {
     const double side = mesh::longest_side(c);
@@ -147,7 +192,12 @@ class TriangleQuestion {
       // Its own middle beyond: then no smaller piece there is near.
       if (std::abs(value.distance_mm) > bound_mm_) return false;
       const Piece piece = piece_of(c);
-      if (is_near_by(slopes_in(piece), c, at, value)) return true;
+      const Slopes slopes = slopes_in(piece);
+      if (is_near_by(slopes, c, at, value)) return true;
+      const bool is_mixed = slopes.level == Slopes::kMixed;
+      if (is_mixed && side <= kWidestMixed * voxel_mm_ && is_near_across(piece, c, at, value)) {
+        return true;
+      }
       if (side <= voxel_mm_ && is_near_by_corners(piece)) return true;
       if (side <= kLeastPiece * bound_mm_) return false;
     }
@@ -161,7 +211,8 @@ class TriangleQuestion {
   }
 
  private:
-  static constexpr double kWidest = 4.0;  ///< piece that is asked, in voxels
+  static constexpr double kWidest = 6.0;       ///< piece that is asked, in voxels
+  static constexpr double kWidestMixed = 2.5;  ///< where levels meet: cell by cell
 
   /// What a piece of a triangle lies in.
   struct Piece {
@@ -219,36 +270,59 @@ class TriangleQuestion {
     return most + more <= bound_mm_;
   }
 
+  /// How far phi at most is from a linear function, whatever the levels of the cells: as far as at
+  /// corners of the parts of cells in the box, since their difference is linear along each axis.
+  bool is_near_across(const Piece& piece, const mesh::Corners& c, const Vec3& at,
+                      const FieldValue& value) {
+    const auto linear = [&](const Vec3& p) {
+      return value.distance_mm + dot(value.gradient, p - at);
+    };
+    double most = 0.0;
+    for (const Vec3& corner : c) most = std::max(most, std::abs(linear(corner)));
+    const double enough = bound_mm_ - most;
+    return enough > 0.0 && for_each_part_corner(piece, [&](const Vec3& p, double phi) {
+             return std::abs(phi - linear(p)) <= enough;
+           });
+  }
+
   /// In a box phi is greatest and least at its corners, since it is linear along each axis.
   bool is_near_by_corners(const Piece& piece) {
-    bool is_near = true;
+    return for_each_part_corner(
+        piece, [&](const Vec3&, double phi) { return std::abs(phi) <= bound_mm_; });
+  }
+
+  /// Calls `is_good(p, phi)` for the corners of the parts of cells that lie in the box, until it
+  /// says no; whether it never did.
+  template <class IsGood>
+  bool for_each_part_corner(const Piece& piece, const IsGood& is_good) {
+    bool all_good = true;
     for_each_index(piece.first, piece.last, [&](const CellIndex& index) {
-      if (!is_near) return;
+      if (!all_good) return;
       const Vec3 middle = middle_of_cell(index, voxel_mm_);
       const FieldCell cell = field_.cell_at(middle);
-      const auto fraction = [&](const Vec3& p) {
-        Vec3 at = cell.fraction;
+      const auto within = [&](const Vec3& p) {
+        Vec3 in = p;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double half = 0.5 * voxel_mm_;
-          at[axis] += cell.per_mm * std::clamp(p[axis] - middle[axis], -half, half);
+          in[axis] = std::clamp(p[axis], middle[axis] - half, middle[axis] + half);
         }
-        return at;
+        return in;
       };
       const Trilinear phi(cell.corners);
-      const Vec3 low = fraction(piece.box.min);
-      const Vec3 high = fraction(piece.box.max);
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3 at{(corner & 4) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                      (corner & 1) != 0 ? high.z : low.z};
-        is_near = is_near && std::abs(phi.value(at)) <= bound_mm_;
+      const Vec3 low = within(piece.box.min);
+      const Vec3 high = within(piece.box.max);
+      for (int corner = 0; corner < 8 && all_good; ++corner) {
+        const Vec3 p{(corner & 4) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                     (corner & 1) != 0 ? high.z : low.z};
+        all_good = is_good(p, phi.value(cell.fraction + cell.per_mm * (p - middle)));
       }
     });
-    return is_near;
+    return all_good;
   }
 
   double bound_mm_;
   double voxel_mm_;
-  FieldSampler field_;
+  FieldSampler& field_;
   BlockSlopes& slopes_;
   struct Recent {
     CellIndex block{};
@@ -262,7 +336,8 @@ class TriangleQuestion {
 void BlockProof::ask_triangles(std::span<const mesh::Corners> triangles,
                                std::span<std::uint8_t> is_near) const {
   assert(triangles.size() == is_near.size());
-  TriangleQuestion question(bound_mm_, voxel_mm_, clay_, slopes_);
+  SamplerPool::Lent lent(samplers_);
+  TriangleQuestion question(bound_mm_, voxel_mm_, lent.sampler(), slopes_);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     is_near[t] = question.is_near(triangles[t]) ? 1 : 0;
   }

@@ -15,6 +15,7 @@
 #include "argil/mesh/decimate.h"
 
 #include "compare/block_slopes.h"
+#include "compare/sampler_pool.h"
 
 namespace argil::io {
 
@@ -26,13 +27,14 @@ namespace argil::io {
 ///
 /// The mesh to the field, triangle by triangle, in pieces of some voxels: along a way from the
 /// middle phi is no farther from its linear continuation than its slopes in the cells there are
-/// from that at the middle. Where levels meet phi may jump: there it is greatest and least at
-/// corners of the parts of cells in a box around the piece, since it is linear along each axis.
+/// from that at the middle. Where levels meet phi may jump: there its difference from the linear
+/// continuation is greatest and least at corners of the parts of cells in a box around the piece,
+/// since both are linear along each axis.
 /// What that does not settle is cut in four.
 class BlockProof final : public mesh::BoundProof {
  public:
-  /// The cells are those that `surface`, as extracted, passes through; points nearer to `left_out`
-  /// do not count. All must outlive this. Throws Interrupted.
+  /// The cells are those with a part of phi = 0 that `surface`, as extracted, stands for; points
+  /// nearer to `left_out` do not count. All must outlive this. Throws Interrupted.
   BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
              double bound_mm, const Pace& pace);
 
@@ -45,7 +47,7 @@ class BlockProof final : public mesh::BoundProof {
                      std::span<std::uint8_t> is_near) const override;
 
  private:
-  /// A cell and the triangles of the surface that lie in it, `count` from `first` on.
+  /// A cell and triangles of the surface that lie in it or beside it, `count` from `first` on.
   struct Cell {
     std::array<float, 8> corners;
     Vec3 low_mm;
@@ -54,8 +56,9 @@ class BlockProof final : public mesh::BoundProof {
     std::uint32_t count = 0;
   };
   class CellQuestion;
+  class CellSet;
 
-  void add_cells(std::size_t begin, std::size_t end, std::vector<Cell>& cells) const;
+  void find_cells(std::size_t begin, std::size_t end, CellSet& cells) const;
   bool is_left_out(const Vec3& at, const Cell& cell) const;
 
   const TriangleMesh& surface_;
@@ -64,6 +67,7 @@ class BlockProof final : public mesh::BoundProof {
   double bound_mm_;
   double voxel_mm_;
   std::vector<Cell> cells_;
+  mutable SamplerPool samplers_;
   mutable BlockSlopes slopes_;
 };
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "argil/core/closest_on_triangle.h"
 
@@ -45,32 +46,44 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
   }
 }
 
+namespace {
+
+/// Whether a point, in sides of a cell from its low corner, lies behind one face of it and phi = 0
+/// passes through that, so that it does through the cell behind.
+bool lies_in_crossed_neighbour(const Vec3& at, const FieldCell& cell) {
+  int beyond = 0;
+  std::size_t across = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (at[axis] >= -2.0 * kInwardVoxels && at[axis] <= 1.0 + 2.0 * kInwardVoxels) continue;
+    ++beyond;
+    across = axis;
+  }
+  if (beyond != 1) return false;
+  const std::size_t step = std::size_t{4} >> across;
+  int inside = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const bool is_high = (corner & step) != 0;
+    if (is_high == (at[across] > 0.5) && cell.corners[corner] < 0.0F) ++inside;
+  }
+  return inside != 0 && inside != 4;
+}
+
+}  // namespace
+
 /// The cell of triangle `t` and of those that follow it in the same; no side where phi has no cell.
 FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const {
-  // A little inward: a triangle in the face between two cells belongs to the one with clay in it.
-  constexpr double kInwardVoxels = 0.001;
-  const auto inward_of = [&](const mesh::Corners& c) {
-    return mesh::middle(c) - kInwardVoxels * voxel_mm_ * normalized(mesh::area_normal(c));
-  };
-  Cell cell;
-  const Vec3 first = inward_of(mesh::corners_of(surface_, t));
-  cell.field = field.cell_at(first);
-  cell.first = t;
-  cell.last = t + 1;
-  if (cell.field.per_mm == 0.0) return cell;
-  cell.side_mm = 1.0 / cell.field.per_mm;
-  cell.low_mm = first - cell.side_mm * cell.field.fraction;
+  Cell cell{cell_of_triangle(mesh::corners_of(surface_, t), voxel_mm_, field), t, t + 1};
+  if (cell.side_mm == 0.0) return cell;
   const auto is_within = [&](const mesh::Corners& c) {
     const Vec3 at = cell.field.per_mm * (mesh::middle(c) - cell.low_mm);
     const double low = std::min({at.x, at.y, at.z});
     const double high = std::max({at.x, at.y, at.z});
-    // Where it is not near a face the step inward, which takes a root, changes nothing.
+    // Where it is not near a face it is in this cell or in none near.
     constexpr double kNear = 2.0 * kInwardVoxels;
-    if (low < -kNear || high > 1.0 + kNear) return false;
+    if (low < -kBesideCell || high > 1.0 + kBesideCell) return false;
     if (low > kNear && high < 1.0 - kNear) return true;
-    const Vec3 inward = cell.field.per_mm * (inward_of(c) - cell.low_mm);
-    return std::min({inward.x, inward.y, inward.z}) >= 0.0 &&
-           std::max({inward.x, inward.y, inward.z}) < 1.0;
+    if (lies_in_crossed_neighbour(at, cell.field)) return false;
+    return cell.is(cell_of_triangle(c, voxel_mm_, field));
   };
   while (cell.last < surface_.triangles.size() &&
          is_within(mesh::corners_of(surface_, cell.last))) {
@@ -274,8 +287,7 @@ DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
 }
 
 /// The greatest distance in the cell of which this is the first triangle, if it exceeds `found`.
-double FieldToMesh::greatest_in(std::uint32_t first, double found) const {
-  FieldSampler field(clay_);
+double FieldToMesh::greatest_in(std::uint32_t first, double found, FieldSampler& field) const {
   const Cell cell = cell_of(first, field);
   const Trilinear phi(cell.field.corners);
   Bulge bulge;
@@ -319,9 +331,10 @@ mesh::DistanceSummary FieldToMesh::measure(const Pace& pace) {
   measure_vertices(pace.part(0.0, 0.3));
   const DistanceSums found_first = measure_cells(pace.part(0.3, 0.7));
   mesh::DistanceSummary summary = found_first.summary();
-  summary.max_mm = greatest_by_bound(
-      bound_, found_first.max, pace.part(0.7, 1.0),
-      [&](std::uint32_t first, double found) { return greatest_in(first, found); });
+  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.7, 1.0), [&] {
+    return [this, field = std::make_unique<FieldSampler>(clay_)](
+               std::uint32_t first, double found) { return greatest_in(first, found, *field); };
+  });
   return summary;
 }
 

@@ -13,13 +13,14 @@
 #include "compare/distance_sums.h"
 #include "compare/field_error.h"
 #include "compare/field_zeros.h"
+#include "compare/surface_cells.h"
 #include "compare/triangle_runs.h"
 
 namespace argil::io {
 
 /// Distance of the points with phi = 0 from a mesh.
 ///
-/// The points are those of the cells that the extracted surface passes through, on lines along the
+/// The points are those of the cells that the extracted surface stands for, on lines along the
 /// axes: a line passes through an area A with normal n in A |n_axis| / spacing^2 points, so that
 /// each point of the lines along all three stands for spacing^2 / (|n_x| + |n_y| + |n_z|), also at
 /// sharp edges, where paths from a triangle along the gradient would not reach.
@@ -43,10 +44,7 @@ class FieldToMesh {
     std::uint32_t nearest = kNoTriangle;
   };
   /// A cell and the triangles of the surface that lie in it, `first` to before `last`.
-  struct Cell {
-    FieldCell field;
-    Vec3 low_mm;
-    double side_mm = 0.0;
+  struct Cell : PlacedCell {
     std::size_t first = 0;
     std::size_t last = 0;
   };
@@ -63,7 +61,7 @@ class FieldToMesh {
                 DistanceSums& sums) const;
   double bound_of(const std::vector<Sample>& points) const;
   double bound_at_vertices(const Cell& cell) const;
-  double greatest_in(std::uint32_t first, double found) const;
+  double greatest_in(std::uint32_t first, double found, FieldSampler& field) const;
   double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
                  double found) const;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 
 #include "argil/mesh/triangle_geometry.h"
 
@@ -88,14 +89,14 @@ mesh::DistanceSummary MeshToField::measure(const Pace& pace) {
   measure_vertices(pace.part(0.0, 0.1));
   const DistanceSums sums = measure_triangles(pace.part(0.1, 0.8));
   mesh::DistanceSummary summary = sums.summary();
-  summary.max_mm =
-      greatest_by_bound(bound_, sums.max, pace.part(0.8, 1.0), [&](std::uint32_t t, double found) {
-        FieldSampler field(clay_);
-        const Triangle& tri = mesh_.triangles[t];
-        const auto phi = [&](std::size_t k) { return at_vertex_[tri[k]]; };
-        return refined(mesh::corners_of(mesh_, t), {phi(0), phi(1), phi(2)}, found, voxel_of(t),
-                       field);
-      });
+  summary.max_mm = greatest_by_bound(bound_, sums.max, pace.part(0.8, 1.0), [&] {
+    return [this, field = std::make_unique<FieldSampler>(clay_)](std::uint32_t t, double found) {
+      const Triangle& tri = mesh_.triangles[t];
+      const auto phi = [&](std::size_t k) { return at_vertex_[tri[k]]; };
+      return refined(mesh::corners_of(mesh_, t), {phi(0), phi(1), phi(2)}, found, voxel_of(t),
+                     *field);
+    };
+  });
   return summary;
 }
 

@@ -180,9 +180,10 @@ GreatestDistance greatest_distance(const TriangleMesh& from,
     stop.at(0.5 + 0.5 * fraction);
     return true;
   };
-  found = greatest_by_bound(bounds, found, Pace(tell, ""), [&](std::uint32_t n, double known) {
+  const auto refine = [&](std::uint32_t n, double known) {
     return surface.refined(asked[n], known, slack_mm, [&] { return stop.hear(); });
-  });
+  };
+  found = greatest_by_bound(bounds, found, Pace(tell, ""), [&] { return refine; });
   return {found, std::min(first_most, found + slack_mm)};
 }
 

@@ -4,10 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "argil/engine/field_sampler.h"
-
 #include "compare/block_proof.h"
 #include "compare/field_error.h"
+#include "compare/sampler_pool.h"
 
 namespace argil::io {
 namespace {
@@ -16,11 +15,11 @@ namespace {
 class ClayTarget final : public mesh::DecimationTarget {
  public:
   ClayTarget(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out)
-      : surface_(surface), clay_(clay), left_out_(left_out) {}
+      : surface_(surface), clay_(clay), left_out_(left_out), samplers_(clay) {}
 
   double voxel_mm() const override { return clay_.options().voxel_mm; }
   std::unique_ptr<DistanceProbe> probe() const override {
-    return std::make_unique<FieldSampler>(clay_);
+    return std::make_unique<SamplerPool::Lent>(samplers_);
   }
   double own_error_mm(const Pace& pace) const override {
     return field_error(surface_, surface_, clay_, left_out_, pace).max_mm();
@@ -33,6 +32,7 @@ class ClayTarget final : public mesh::DecimationTarget {
   const TriangleMesh& surface_;
   const Clay& clay_;
   const TriangleMesh& left_out_;
+  mutable SamplerPool samplers_;
 };
 
 }  // namespace

@@ -123,10 +123,10 @@ class Scenes : public testing::TestWithParam<Scene> {
   double h_ = 0.0;
 };
 
-/// Means by a quarter of a voxel are off by 2 to 4 % themselves, as those by a tenth show.
-void expect_near(const mesh::DistanceSummary& got, const mesh::DistanceSummary& dense) {
-  EXPECT_NEAR(got.mean_mm, dense.mean_mm, 0.07 * dense.mean_mm);
-  EXPECT_NEAR(got.rms_mm, dense.rms_mm, 0.07 * dense.rms_mm);
+void expect_near(const mesh::DistanceSummary& got, const mesh::DistanceSummary& dense,
+                 double of_means) {
+  EXPECT_NEAR(got.mean_mm, dense.mean_mm, of_means * dense.mean_mm);
+  EXPECT_NEAR(got.rms_mm, dense.rms_mm, of_means * dense.rms_mm);
   EXPECT_NEAR(got.max_mm, dense.max_mm, 0.05 * dense.max_mm);
   std::printf("of dense sampling: mean %.3f rms %.3f max %.3f\n", got.mean_mm / dense.mean_mm,
               got.rms_mm / dense.rms_mm, got.max_mm / dense.max_mm);
@@ -142,10 +142,11 @@ class ErrorCertificate : public Scenes {
       const mesh::MeshError dense = test::dense_error(mesh, surface_, *clay_, 0.25 * h_);
       {
         SCOPED_TRACE("mesh to field");
-        expect_near(got.mesh_to_field, dense.mesh_to_field);
+        expect_near(got.mesh_to_field, dense.mesh_to_field, 0.05);
       }
       SCOPED_TRACE("field to mesh");
-      expect_near(got.field_to_mesh, dense.field_to_mesh);
+      // Of the surface itself what is nearer than a twentieth of a cell is not looked up exactly.
+      expect_near(got.field_to_mesh, dense.field_to_mesh, share < 1.0 ? 0.02 : 0.05);
     }
   }
 };
@@ -192,10 +193,11 @@ void DecimateScenes::expect_error_kept(double sampled_mm) const {
     ASSERT_TRUE(made) << made.error().message;
     const TriangleMesh& mesh = made.value().mesh;
     EXPECT_TRUE(mesh::check_mesh(mesh).printable);
-    // A wider bound needs fewer, but for what a block taken back leaves of the few hundred that
-    // there are at the end.
+    // A wider bound needs fewer, but for what a block taken back leaves: of a surface that has few
+    // hundred left at the end it is up to 0.3 %.
     EXPECT_LT(static_cast<double>(mesh.triangles.size()),
-              test::effort(1.0, 1.05) * static_cast<double>(before) + test::effort(0.0, 30.0));
+              test::effort(1.0, 1.05) * static_cast<double>(before) +
+                  test::effort(0.0, 0.003) * static_cast<double>(surface_.triangles.size()));
     before = mesh.triangles.size();
     EXPECT_LE(error_of(mesh).max_mm(), bound);
     EXPECT_LE(test::dense_error(mesh, surface_, *clay_, sampled_mm).max_mm(), bound);

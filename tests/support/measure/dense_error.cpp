@@ -6,93 +6,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <iterator>
 #include <set>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
 
-#include "support/effort.h"
+#include "support/measure/triangle_buckets.h"
 
 namespace argil::test {
 namespace {
-
-/// The distance from a point to a triangle: from the plane where the foot lies within, else from
-/// the nearest side.
-double distance_to(const Vec3& p, const std::array<Vec3, 3>& t) {
-  const Vec3 n = normalized(cross(t[1] - t[0], t[2] - t[0]));
-  bool inside = n != Vec3{};
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 side = t[(k + 1) % 3] - t[k];
-    if (dot(cross(n, side), p - t[k]) < 0.0) inside = false;
-    const double square = dot(side, side);
-    const double along = square > 0.0 ? std::clamp(dot(p - t[k], side) / square, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, length(p - (t[k] + along * side)));
-  }
-  return inside ? std::abs(dot(n, p - t[0])) : nearest;
-}
-
-/// The triangles of a mesh by the boxes of a grid that they touch.
-class Buckets {
- public:
-  Buckets(const TriangleMesh& mesh, double side) : mesh_(mesh), side_(side) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      Box3 box;
-      for (const std::uint32_t v : mesh.triangles[t]) box.include(mesh.positions[v]);
-      const Key low = key(box.min);
-      const Key high = key(box.max);
-      for (int x = low[0]; x <= high[0]; ++x) {
-        for (int y = low[1]; y <= high[1]; ++y) {
-          for (int z = low[2]; z <= high[2]; ++z) boxes_[{x, y, z}].push_back(t);
-        }
-      }
-    }
-  }
-
-  double distance(const Vec3& p) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int ring = 0; nearest > (ring - 1) * side_; ++ring) look_in_ring(p, ring, nearest);
-    return nearest;
-  }
-
- private:
-  using Key = std::array<int, 3>;
-  struct KeyHash {
-    std::size_t operator()(const Key& k) const noexcept {
-      return static_cast<std::size_t>((static_cast<unsigned>(k[0]) * 73856093U) ^
-                                      (static_cast<unsigned>(k[1]) * 19349663U) ^
-                                      (static_cast<unsigned>(k[2]) * 83492791U));
-    }
-  };
-  Key key(const Vec3& p) const {
-    const auto of = [&](double x) { return static_cast<int>(std::floor(x / side_)); };
-    return {of(p.x), of(p.y), of(p.z)};
-  }
-  void look_in_ring(const Vec3& p, int ring, double& nearest) const {
-    const Key at = key(p);
-    for (int x = -ring; x <= ring; ++x) {
-      for (int y = -ring; y <= ring; ++y) {
-        const bool rim = std::abs(x) == ring || std::abs(y) == ring;
-        for (int z = -ring; z <= ring; z += rim || ring == 0 ? 1 : 2 * ring) {
-          const auto box = boxes_.find({at[0] + x, at[1] + y, at[2] + z});
-          if (box == boxes_.end()) continue;
-          for (const std::uint32_t t : box->second) {
-            const auto& [a, b, c] = mesh_.triangles[t];
-            nearest = std::min(nearest, distance_to(p, {mesh_.positions[a], mesh_.positions[b],
-                                                        mesh_.positions[c]}));
-          }
-        }
-      }
-    }
-  }
-
-  const TriangleMesh& mesh_;
-  double side_;
-  std::unordered_map<Key, std::vector<std::uint32_t>, KeyHash> boxes_;
-};
 
 struct Sum {
   double area = 0.0, distance = 0.0, square = 0.0, max = 0.0;
@@ -173,75 +97,187 @@ std::vector<Vec3> cubes_near(const TriangleMesh& surface, double voxel) {
   return lows;
 }
 
-/// The points with phi = 0 in a cube, on n x n lines along each axis, and the area each stands for:
-/// by how the lines are spaced and by the slope there. Where levels meet phi may jump across zero:
-/// that is no point of the surface.
-template <class Use>
-void on_lines(const Vec3& low, double side, int n, const Clay& clay, const Use& use) {
-  const double step = side / n;
-  const auto phi = [&](const Vec3& p) { return clay.distance_at(p); };
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (int line = 0; line < n * n; ++line) {
-      Vec3 a = low;
-      a[(axis + 1) % 3] += (line / n + 0.5) * step;
-      a[(axis + 2) % 3] += (line % n + 0.5) * step;
-      double before = phi(a);
-      for (int i = 0; i < n; ++i) {
-        Vec3 b = a;
-        b[axis] = low[axis] + (i + 1) * step;
-        const double behind = phi(b);
-        if ((before < 0.0) != (behind < 0.0)) {
-          Vec3 in = before < 0.0 ? a : b;
-          Vec3 out = before < 0.0 ? b : a;
-          for (int k = 0; k < 14; ++k) {
-            const Vec3 middle = 0.5 * (in + out);
-            (phi(middle) < 0.0 ? in : out) = middle;
-          }
-          if (std::abs(phi(in)) < 0.01 * side) {
-            const double probe = 0.01 * step;
-            Vec3 slope;
-            for (std::size_t k = 0; k < 3; ++k) {
-              Vec3 on = in;
-              on[k] += probe;
-              Vec3 off = in;
-              off[k] -= probe;
-              slope[k] = std::abs(phi(on) - phi(off));
-            }
-            const double size = length(slope);
-            const double shown = size > 0.0 ? (slope.x + slope.y + slope.z) / size : 1.0;
-            use(in, step * step / std::max(1.0, shown));
-          }
-        }
-        a = b;
-        before = behind;
-      }
-    }
-  }
+/// A cube in space.
+struct Cube {
+  Vec3 low;
+  double side = 0.0;
+  double met = 0.0;  ///< the greatest distance found in it or in that of which it is an eighth
+  bool may_exceed = true;
+
+  Vec3 middle() const { return low + 0.5 * side * Vec3{1, 1, 1}; }
+  double reach() const { return 0.5 * std::sqrt(3.0) * side; }  ///< from there to its corners
+};
+
+Cube eighth_of(const Cube& cube, std::size_t number) {
+  const double side = 0.5 * cube.side;
+  const auto shift = [&](unsigned bit) { return (number >> bit & 1U) != 0 ? side : 0.0; };
+  return {cube.low + Vec3{shift(2), shift(1), shift(0)}, side, cube.met};
 }
 
-mesh::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh& surface,
-                                    const Clay& clay, double step_mm) {
-  const double voxel = clay.options().voxel_mm;
-  const Buckets buckets(mesh, 4.0 * voxel);
-  const std::vector<Vec3> cubes = cubes_near(surface, voxel);
-  std::vector<Sum> sums(cubes.size());
-  const auto measure = [&](std::size_t i, int n) {
-    sums[i] = {};
-    on_lines(cubes[i], voxel, n, clay,
-             [&](const Vec3& at, double area) { sums[i].add(buckets.distance(at), area); });
-  };
-  const int lines = static_cast<int>(std::ceil(voxel / step_mm));
-  tbb::parallel_for(std::size_t{0}, cubes.size(), [&](std::size_t i) { measure(i, lines); });
+/// A number within [0, 1) for each index, evenly spread: SplitMix64.
+double random_of(std::uint64_t index) {
+  std::uint64_t x = (index + 1) * 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+  return static_cast<double>((x ^ (x >> 31U)) >> 11U) * 0x1p-53;
+}
+
+/// Points with phi = 0, on lines along the axes.
+class ZeroLines {
+ public:
+  explicit ZeroLines(const Clay& clay) : clay_(clay) {}
+
+  double phi(const Vec3& p) const { return clay_.distance_at(p); }
+
+  /// Calls `use(point)` where the line from `a` along an axis passes phi = 0 within `steps` of this
+  /// length. Where levels meet phi may jump across zero: that is no point of the surface.
+  template <class Use>
+  void pass(Vec3 a, std::size_t axis, double step, int steps, const Use& use) const {
+    const double from = a[axis];
+    double before = phi(a);
+    for (int i = 1; i <= steps; ++i) {
+      Vec3 b = a;
+      b[axis] = from + i * step;
+      const double behind = phi(b);
+      if ((before < 0.0) != (behind < 0.0)) {
+        const Vec3 in = before < 0.0 ? halved(a, b) : halved(b, a);
+        if (std::abs(phi(in)) < 0.01 * clay_.options().voxel_mm) use(in);
+      }
+      a = b;
+      before = behind;
+    }
+  }
+
+  /// The area that a point on lines of this spacing along all three axes stands for, by the slope.
+  double area_at(const Vec3& p, double spacing) const {
+    const double probe = 0.01 * spacing;
+    Vec3 slope;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3 on = p;
+      on[k] += probe;
+      Vec3 off = p;
+      off[k] -= probe;
+      slope[k] = std::abs(phi(on) - phi(off));
+    }
+    const double size = length(slope);
+    const double shown = size > 0.0 ? (slope.x + slope.y + slope.z) / size : 1.0;
+    return spacing * spacing / std::max(1.0, shown);
+  }
+
+ private:
+  /// The last point inside between one inside and one outside.
+  Vec3 halved(Vec3 in, Vec3 out) const {
+    for (int k = 0; k < 14; ++k) {
+      const Vec3 middle = 0.5 * (in + out);
+      (phi(middle) < 0.0 ? in : out) = middle;
+    }
+    return in;
+  }
+
+  const Clay& clay_;
+};
+
+/// How far points with phi = 0 are from a mesh.
+class FieldSide {
+ public:
+  FieldSide(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay, double step_mm)
+      : lines_(clay),
+        buckets_(mesh, 4.0 * clay.options().voxel_mm),
+        step_mm_(step_mm),
+        voxel_mm_(clay.options().voxel_mm) {
+    for (const Vec3& low : cubes_near(surface, voxel_mm_)) cubes_.push_back({low, voxel_mm_, 0.0});
+  }
+
+  mesh::DistanceSummary measure() const;
+
+ private:
+  Sum on_lines(std::uint64_t number) const;
+  double greatest(std::vector<Cube> cubes, double found) const;
+  bool may_exceed(const Cube& cube, double found) const;
+  double greatest_on_axes(const Cube& cube) const;
+
+  ZeroLines lines_;
+  TriangleBuckets buckets_;
+  double step_mm_;
+  double voxel_mm_;
+  std::vector<Cube> cubes_;
+};
+
+/// Over n x n lines along each axis of a cube, each anywhere in its square: what repeats in step
+/// with the lattice, such as the rims of a block, would be met everywhere alike.
+Sum FieldSide::on_lines(std::uint64_t number) const {
+  const Cube& cube = cubes_[number];
+  const int n = static_cast<int>(std::ceil(voxel_mm_ / step_mm_));
+  const double step = cube.side / n;
+  Sum sum;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int line = 0; line < n * n; ++line) {
+      const std::uint64_t seed = 2 * ((3 * number + axis) * 4096 + static_cast<unsigned>(line));
+      Vec3 a = cube.low;
+      a[(axis + 1) % 3] += (line / n + random_of(seed)) * step;
+      a[(axis + 2) % 3] += (line % n + random_of(seed + 1)) * step;
+      lines_.pass(a, axis, step, n, [&](const Vec3& at) {
+        sum.add(buckets_.distance(at), lines_.area_at(at, step));
+      });
+    }
+  }
+  return sum;
+}
+
+/// Whether a point with phi = 0 in the cube may be farther from the mesh than `found`: no distance
+/// changes faster than its point moves, and phi not much faster.
+bool FieldSide::may_exceed(const Cube& cube, double found) const {
+  constexpr double kSteepest = 1.5;
+  const Vec3 middle = cube.middle();
+  return std::abs(lines_.phi(middle)) <= kSteepest * cube.reach() &&
+         buckets_.distance(middle) + cube.reach() > found;
+}
+
+/// Of the points with phi = 0 on the three lines through the middle.
+double FieldSide::greatest_on_axes(const Cube& cube) const {
+  double most = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Vec3 a = cube.middle();
+    a[axis] = cube.low[axis];
+    lines_.pass(a, axis, 0.5 * cube.side, 2,
+                [&](const Vec3& at) { most = std::max(most, buckets_.distance(at)); });
+  }
+  return most;
+}
+
+/// The greatest distance in cubes of one size, if it exceeds `found`: they are halved, down to a
+/// sixty-fourth of a voxel, and those left out where it cannot lie, or where it is so much less
+/// that it will not: the nearer, the denser.
+double FieldSide::greatest(std::vector<Cube> cubes, double found) const {
+  while (!cubes.empty() && cubes.front().side > voxel_mm_ / 64.0) {
+    std::vector<Cube> eighths(8 * cubes.size());
+    tbb::parallel_for(std::size_t{0}, eighths.size(), [&](std::size_t i) {
+      Cube& cube = eighths[i] = eighth_of(cubes[i / 8], i % 8);
+      // Where the surface meets none of the three lines what is known of the whole counts.
+      cube.may_exceed = may_exceed(cube, found);
+      if (cube.may_exceed) cube.met = std::max(cube.met, greatest_on_axes(cube));
+    });
+    for (const Cube& cube : eighths) found = std::max(found, cube.met);
+    const double near = (cubes.front().side > 0.2 * voxel_mm_ ? 0.7 : 0.9) * found;
+    cubes.clear();
+    std::copy_if(eighths.begin(), eighths.end(), std::back_inserter(cubes),
+                 [&](const Cube& cube) { return cube.met > near && cube.may_exceed; });
+  }
+  return found;
+}
+
+mesh::DistanceSummary FieldSide::measure() const {
+  std::vector<Sum> sums(cubes_.size());
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t i) { sums[i] = on_lines(i); });
   Sum all;
   for (const Sum& s : sums) all.add(s);
-  // The greatest lies in a cube where it is nearly as great already; the nearer, the denser.
-  for (const auto& [times, share] : {std::pair{4, 0.7}, std::pair{16, effort(0.9, 0.7)}}) {
-    const double near = share * all.max;
-    tbb::parallel_for(std::size_t{0}, cubes.size(), [&, more = times](std::size_t i) {
-      if (sums[i].max > near) measure(i, more * lines);
-    });
-    for (const Sum& s : sums) all.max = std::max(all.max, s.max);
+  std::vector<Cube> open;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (sums[i].max <= 0.6 * all.max) continue;
+    open.push_back(cubes_[i]);
+    open.back().met = sums[i].max;
   }
+  all.max = greatest(std::move(open), all.max);
   return summary_of(all);
 }
 
@@ -249,7 +285,7 @@ mesh::DistanceSummary field_to_mesh(const TriangleMesh& mesh, const TriangleMesh
 
 mesh::MeshError dense_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
                             double step_mm) {
-  return {mesh_to_field(mesh, clay, step_mm), field_to_mesh(mesh, surface, clay, step_mm)};
+  return {mesh_to_field(mesh, clay, step_mm), FieldSide(mesh, surface, clay, step_mm).measure()};
 }
 
 }  // namespace argil::test
