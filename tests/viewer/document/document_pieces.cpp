@@ -112,6 +112,8 @@ TEST_F(DocumentPiecesTest, ThePointerFindsTheNearestPieceAndTheActiveOneAtItsPla
   EXPECT_EQ(active(), "Ball");
   const PointerAnswer now = asked(on_other.ray);
   ASSERT_TRUE(now.pick);
+  EXPECT_EQ(now.piece, piece("Ball").key);
+  EXPECT_EQ(now.placement.position_mm, beside) << "where a device would meet it";
   EXPECT_NEAR(now.pick->point_mm.y, beside.y - 40.0 / 6.0, 0.1);
   EXPECT_LT(length(now.pick->normal - Vec3{0.0, -1.0, 0.0}), 0.05);
   // From the other side the first one is in front of it.

@@ -32,11 +32,12 @@ void SceneFeed::restart() noexcept {
 }
 
 SceneNews SceneFeed::drop_all() {
-  SceneNews news;
-  news.gone = std::exchange(gone_, {});
-  for (const auto& [clay, followed] : followed_) news.gone.push_back(followed.key);
+  gone_.reserve(gone_.size() + followed_.size());  // all of them, or none is forgotten yet
+  for (const auto& [clay, followed] : followed_) gone_.push_back(followed.key);
   followed_.clear();
   is_fresh_ = true;
+  SceneNews news;
+  news.gone = std::exchange(gone_, {});
   return news;
 }
 
