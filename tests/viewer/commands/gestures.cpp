@@ -174,6 +174,20 @@ TEST_F(GesturesTest, AnotherButtonNeitherEndsAStrokeNorBeginsASecondDrag) {
   EXPECT_FALSE(gestures_.is_stroke_open());
 }
 
+TEST_F(GesturesTest, AKeyWhileTheHandOfADeviceWorksOnlyLetsGoOfTheTool) {
+  ui_.is_hand_led = true;
+  mouse(InputEvent::Kind::press);
+  ASSERT_TRUE(gestures_.is_hand_pressing());
+  const bool has_pieces = ui_.panels.has_pieces;
+  key('P', false, {.ctrl = true});
+  EXPECT_EQ(ui_.panels.has_pieces, has_pieces);
+  key(kClutchKey);
+  EXPECT_TRUE(ui_.is_clutched);
+  mouse(InputEvent::Kind::release);
+  key('P', false, {.ctrl = true});
+  EXPECT_NE(ui_.panels.has_pieces, has_pieces);
+}
+
 TEST_F(GesturesTest, TheNumberRowIsTheNumpadWhereItWasChosen) {
   ui_.camera.look_from({1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
   key('1');

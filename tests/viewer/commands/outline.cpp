@@ -145,10 +145,20 @@ OutlineDrag drag_of(DragForm form, bool is_parallel,
   return drag;
 }
 
+/// As the document's thread does it to clay within these bounds.
+std::optional<io::ScriptStep> step_of(const OutlineDrag& drag, const Box3& bounds_mm) {
+  const auto wanted = request_of(drag, false);
+  if (!wanted) return std::nullopt;
+  if (const auto* step = std::get_if<DoStep>(&*wanted)) return step->step;
+  auto combine = combine_of(std::get<TrimPiece>(*wanted).trim, bounds_mm);
+  if (!combine) return std::nullopt;
+  return io::ScriptStep(Operation(std::move(*combine)));
+}
+
 constexpr double kTrimVoxelMm = 0.4;
 Clay trimmed(const OutlineDrag& drag) {
   Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = kTrimVoxelMm}).value();
-  const auto step = step_of(drag, clay.bounds_mm(), false);
+  const auto step = step_of(drag, clay.bounds_mm());
   EXPECT_TRUE(step && io::apply_step(clay, *step).ok());
   return clay;
 }
@@ -164,7 +174,7 @@ TEST_P(Trims, SolidsAreClosedAndReachThroughTheClay) {
   Box3 box;
   box.include({-10.0, -10.0, -10.0});
   box.include({10.0, 10.0, 10.0});
-  const auto step = step_of(drag, box, false);
+  const auto step = step_of(drag, box);
   ASSERT_TRUE(step);
   const TriangleMesh& mesh = *std::get<Combine>(std::get<Operation>(*step)).mesh;
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -222,14 +232,12 @@ TEST_P(Trims, ALineTakesWhatLiesToItsRight) {
 TEST_P(Trims, OverAllOfTheClayAreRefusedByTheEngineAndBesideItAreNothing) {
   Clay clay = Clay::ball(10.0, ClayOptions{.voxel_mm = kTrimVoxelMm}).value();
   const auto all =
-      step_of(drag_of(DragForm::box, GetParam(), {{-30, -30}, {30, 30}}), clay.bounds_mm(), false);
+      step_of(drag_of(DragForm::box, GetParam(), {{-30, -30}, {30, 30}}), clay.bounds_mm());
   ASSERT_TRUE(all);
   EXPECT_FALSE(io::apply_step(clay, *all).ok());
-  EXPECT_FALSE(
-      step_of(drag_of(DragForm::box, GetParam(), {{25, 25}, {28, 28}}), clay.bounds_mm(), false));
-  EXPECT_FALSE(step_of(drag_of(DragForm::box, GetParam(), {{3, 3}}), clay.bounds_mm(), false));
-  EXPECT_FALSE(
-      step_of(drag_of(DragForm::line, GetParam(), {{3, 3}, {3, 3.1}}), clay.bounds_mm(), false));
+  EXPECT_FALSE(step_of(drag_of(DragForm::box, GetParam(), {{25, 25}, {28, 28}}), clay.bounds_mm()));
+  EXPECT_FALSE(step_of(drag_of(DragForm::box, GetParam(), {{3, 3}}), clay.bounds_mm()));
+  EXPECT_FALSE(step_of(drag_of(DragForm::line, GetParam(), {{3, 3}, {3, 3.1}}), clay.bounds_mm()));
 }
 
 // ---- by the mouse ------------------------------------------------------------------------------
@@ -297,6 +305,21 @@ TEST_F(OutlineGestures, ControlAndShiftMaskByALassoWhateverTheTool) {
   EXPECT_EQ(steps(), (std::vector<std::string>{"Masked within"}));
 }
 
+TEST_F(OutlineGestures, TheWheelLeavesTheCameraWhileOneIsDrawn) {
+  ui_.brush.action = Action::trim;
+  ui_.outlines.trim = DragForm::lasso;
+  const Lens lens = ui_.camera.lens({});
+  InputEvent wheel;
+  wheel.kind = InputEvent::Kind::scroll;
+  wheel.steps = 1.0;
+  mouse_at(InputEvent::Kind::press, {10, 10});
+  gestures_.on(wheel, false);
+  EXPECT_EQ(ui_.camera.lens({}), lens);
+  mouse_at(InputEvent::Kind::release, {10, 10});
+  gestures_.on(wheel, false);
+  EXPECT_NE(ui_.camera.lens({}), lens);
+}
+
 TEST_F(OutlineGestures, EscapeLeavesItAndAClickIsNone) {
   ui_.brush.action = Action::trim;
   ui_.outlines.trim = DragForm::box;
@@ -320,7 +343,7 @@ TEST(OutlineSteps, OfATurnedPieceAreInItsFrame) {
   drag.points = {{120.0, 40.0}, {260.0, 210.0}};
   const Box3 bounds{{-20.0, -20.0, -20.0}, {20.0, 20.0, 20.0}};
   const auto cut_of = [&] {
-    return std::get<Cut>(std::get<Operation>(step_of(drag, bounds, false).value()));
+    return std::get<Cut>(std::get<Operation>(step_of(drag, bounds).value()));
   };
   const Cut plain = cut_of();
   drag.piece = piece;
@@ -328,7 +351,7 @@ TEST(OutlineSteps, OfATurnedPieceAreInItsFrame) {
   EXPECT_LT(length(placed(piece, own.point_mm) - plain.point_mm), 1e-9);
   EXPECT_LT(length(turned(piece, own.normal) - plain.normal), 1e-9);
   drag.form = DragForm::box;
-  const auto outline = std::get<MaskOutline>(step_of(drag, bounds, false).value());
+  const auto outline = std::get<MaskOutline>(step_of(drag, bounds).value());
   const Lens lens = drag.part.camera.lens({});
   EXPECT_LT(length(placed(piece, outline.view.eye_mm) - lens.eye_mm), 1e-9);
   const Vec3 right = rotate(outline.view.orientation, {1.0, 0.0, 0.0});

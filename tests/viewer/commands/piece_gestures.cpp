@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "commands/command.h"
+#include "commands/piece_edits.h"
 #include "viewer/support/gestures_test.h"
 
 namespace argil::viewer {
@@ -73,6 +74,37 @@ TEST_F(PieceGesturesTest, ADragIsShownAtOnceAndIsOneStepAtItsEnd) {
   EXPECT_EQ(x_of_active(), 0.0);
 }
 
+TEST_F(PieceGesturesTest, InStereoADragGoesOnInThePictureThatItBeganIn) {
+  ui_.show.is_stereo = true;
+  perform(Command::piece_gizmo, ui_, document_);
+  const WindowPart left = part_at(ui_.camera, true, {10.0, 300.0});
+  const Gizmo gizmo = shown_gizmo(ui_, left.camera).value();
+  const Camera::Pixel from =
+      left.camera.pixel_of(gizmo.center_mm + 1.2 * gizmo.length_mm * Vec3{1.0, 0.0, 0.0});
+  mouse_at(InputEvent::Kind::press, from);
+  ASSERT_TRUE(ui_.pieces.drag);
+  mouse_at(InputEvent::Kind::move, {399.0, from.y});
+  const double before = shown_placement(ui_).position_mm.x;
+  mouse_at(InputEvent::Kind::move, {401.0, from.y});
+  const double step = shown_placement(ui_).position_mm.x - before;
+  EXPECT_GT(step, 0.0);
+  EXPECT_LT(step, 5.0) << "two pixels";
+}
+
+TEST_F(PieceGesturesTest, ThePieceToMergeWithIsTheChosenOneByAnyName) {
+  document_.send(AddBallPiece{});
+  document_.send(AddBallPiece{});
+  settle();
+  ASSERT_EQ(other_piece(ui_), "Clay");
+  ui_.pieces.other = ui_.clay.pieces->pieces[1].key;
+  ASSERT_EQ(other_piece(ui_), "Ball");
+  ChangePiece change{"Ball"};
+  change.new_name = "Nose";
+  document_.send(DoStep{PieceEdit{change}});
+  settle();
+  EXPECT_EQ(other_piece(ui_), "Nose");
+}
+
 TEST_F(PieceGesturesTest, EscapeTakesADragBackAndAClickIsNoStep) {
   perform(Command::piece_gizmo, ui_, document_);
   const Camera::Pixel from = arrow();
@@ -128,6 +160,10 @@ TEST_F(PieceGesturesTest, APressOnAnotherPieceNeitherSculptsNorTurnsAndTwoMakeIt
   EXPECT_EQ(ui_.clay.pieces->active_piece().look.name, "Clay");
   // The key does the same where the pointer is.
   ui_.pointer = ui_.camera.pixel_of({30.0, 0.0, -20.0 + 40.0 / 6.0});
+  key('Q', false, {false, false, true});
+  settle();
+  EXPECT_EQ(ui_.clay.pieces->active_piece().look.name, "Clay") << "a panel lies over it";
+  ui_.is_pointer_over_clay_view = true;
   key('Q', false, {false, false, true});
   settle();
   EXPECT_EQ(ui_.clay.pieces->active_piece().look.name, "Ball");

@@ -56,6 +56,13 @@ class DocumentPiecesTest : public DocumentThreadTest {
     return thread_.answer().value();
   }
 
+  /// What a view from the front shows to the right of the middle.
+  static OutlineTrim right_half() {
+    const double half = std::sqrt(0.5);
+    const ViewFrame view{{0.0, -100.0, 0.0}, {half, half, 0.0, 0.0}, true};
+    return {view, {{{0.0, -90.0}, {90.0, -90.0}, {90.0, 90.0}, {0.0, 90.0}}}, false};
+  }
+
   const Placement kTurned{{3.0, -7.0, 11.0}, normalized(Quat{0.6, 0.3, -0.5, 0.4})};
   ClayState state_;
 };
@@ -105,6 +112,8 @@ TEST_F(DocumentPiecesTest, ThePointerFindsTheNearestPieceAndTheActiveOneAtItsPla
   EXPECT_EQ(active(), "Ball");
   const PointerAnswer now = asked(on_other.ray);
   ASSERT_TRUE(now.pick);
+  EXPECT_EQ(now.piece, piece("Ball").key);
+  EXPECT_EQ(now.placement.position_mm, beside) << "where a device would meet it";
   EXPECT_NEAR(now.pick->point_mm.y, beside.y - 40.0 / 6.0, 0.1);
   EXPECT_LT(length(now.pick->normal - Vec3{0.0, -1.0, 0.0}), 0.05);
   // From the other side the first one is in front of it.
@@ -200,6 +209,114 @@ TEST_F(DocumentPiecesTest, AHiddenPieceIsNotSculptedAndComesBackAsItIs) {
   hide.is_visible = true;
   edit(hide);
   EXPECT_TRUE(settle_all().empty()) << "its blocks were kept";
+}
+
+TEST_F(DocumentPiecesTest, EscapeAfterARefusedStrokeTakesNothingBack) {
+  open_two();
+  stroke({20.0, -3.0, 0.0}, {20.0, 3.0, 0.0});
+  ChangePiece lock{"Clay"};
+  lock.is_locked = true;
+  edit(lock);
+  thread_.send(BeginStroke{small_tool(), {}});
+  thread_.send(ExtendStroke{{at(0.0, {20.0, 0.0, 0.0})}, 0.0});
+  thread_.send(CancelStroke{});
+  settle_all();
+  EXPECT_EQ(errors().size(), 1U) << "of the stroke";
+  EXPECT_TRUE(piece("Clay").look.is_locked);
+  const auto steps = thread_.state().steps;
+  EXPECT_EQ(steps->done, steps->names.size());
+}
+
+TEST_F(DocumentPiecesTest, NothingIsDoneToAHiddenPieceNorMergedWithIt) {
+  open_two();
+  ChangePiece hide{"Clay"};
+  hide.is_visible = false;
+  edit(hide);
+  settle_all();
+  const auto steps = thread_.state().steps->names.size();
+  const std::vector<Request> requests{
+      DoStep{MaskEdit::fill}, DoStep{Operation(Offset{1.0})}, TrimPiece{right_half(), {}},
+      DoStep{PieceEdit{MergePiece{"Ball", "Clay"}}}, DoStep{PieceEdit{MergePiece{"Clay", "Ball"}}}};
+  for (const Request& request : requests) thread_.send(request);
+  settle_all();
+  const std::vector<std::string> told = errors();
+  EXPECT_EQ(told.size(), requests.size());
+  for (const std::string& text : told) {
+    EXPECT_NE(text.find("'Clay' is hidden"), std::string::npos) << text;
+  }
+  EXPECT_EQ(thread_.state().steps->names.size(), steps);
+  thread_.send(DoStep{io::HistoryStep::undo});
+  settle_all();
+  EXPECT_TRUE(piece("Clay").look.is_visible) << "undo is for all";
+}
+
+TEST_F(DocumentPiecesTest, WhatWasMeantForAPieceIsNotDoneToAnother) {
+  open_two();
+  const PieceKey clay = piece("Clay").key;
+  edit(SelectPiece{"Ball"});
+  thread_.send(DoStep{MaskEdit::fill, clay});
+  thread_.send(TrimPiece{right_half(), clay});
+  thread_.send(CheckPath{{{100.0, 0.0, 0.0}, {110.0, 0.0, 0.0}}, clay});
+  settle_all();
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_FALSE(thread_.state().has_mask);
+  edit(SelectPiece{"Clay"});
+  thread_.send(DoStep{MaskEdit::fill, clay});
+  settle_all();
+  EXPECT_TRUE(errors().empty());
+  EXPECT_TRUE(thread_.state().has_mask);
+}
+
+/// The window had not seen yet how far it grew.
+TEST_F(DocumentPiecesTest, ATrimGoesThroughTheClayAsItIsByThen) {
+  thread_.send(NewClay{ball(20.0)});
+  thread_.send(DoStep{Operation(Offset{8.0})});
+  thread_.send(TrimPiece{right_half(), {}});
+  const Sculpture sculpture = saved();
+  EXPECT_TRUE(errors().empty());
+  for (const double y : {-27.0, -10.0, 10.0, 27.0}) {
+    EXPECT_GT(sculpture.clay().distance_at({2.0, y, 0.0}), 0.0) << y;
+    EXPECT_LT(sculpture.clay().distance_at({-2.0, y, 0.0}), 0.0) << y;
+  }
+}
+
+TEST_F(DocumentPiecesTest, TheHandOfADeviceWaitsWhileAnotherPieceIsActive) {
+  open_two();
+  const PieceKey clay = piece("Clay").key;
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  ClayHeartbeat heartbeat;
+  thread_.send(LinkHaptics{&ring, &channel, &heartbeat, small_tool(), {}, clay});
+  edit(SelectPiece{"Ball"});
+  settle_all();
+  const auto beats = [&] {
+    const std::uint64_t before = heartbeat.beats.load();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return heartbeat.beats.load() - before;
+  };
+  EXPECT_EQ(beats(), 0U);
+  edit(SelectPiece{"Clay"});
+  settle_all();
+  EXPECT_GT(beats(), 0U);
+  thread_.send(UnlinkHaptics{});
+  settle_all();
+}
+
+TEST_F(DocumentPiecesTest, ASinglePieceThatWasPlacedIsExportedWhereItStands) {
+  thread_.send(NewClay{ball(20.0)});
+  place("Clay", kTurned);
+  thread_.send(ExportMesh{folder_ / "one.3mf", {}});
+  thread_.send(ExportMesh{folder_ / "one.stl", {}});
+  settle_all();
+  std::string told;
+  for (const Notice& notice : thread_.take_notices()) told += notice.text + "\n";
+  EXPECT_NE(told.find("in its own frame to 'one.stl'"), std::string::npos) << told;
+  EXPECT_EQ(told.find("in its own frame to 'one.3mf'"), std::string::npos) << told;
+  const auto read = io::read_assembly(folder_ / "one.3mf");
+  ASSERT_TRUE(read.ok());
+  const std::vector<io::PlacedPart> parts = io::placed_parts(read.value().assembly);
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_LT(length(parts[0].to_mm.rows[3] - kTurned.position_mm), 1e-4);
 }
 
 TEST_F(DocumentPiecesTest, VisiblePiecesAreExportedByNameWhereTheyStand) {

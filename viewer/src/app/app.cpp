@@ -348,14 +348,27 @@ void App::take_events(const std::vector<InputEvent>& events) {
   }
 }
 
-/// Errors  memory.
+/// Errors  memory: what there was no room for is not drawn, nor is what stood there before.
 Result<void> App::take_blocks(PieceKey piece, const BlockNews& news) {
   if (news.is_fresh) renderer_->drop(piece);
   for (const BlockId& id : news.gone) renderer_->drop(piece, id);
+  Result<void> taken;
   for (const auto& [id, block] : news.changed) {
-    if (auto put = renderer_->put(piece, block); !put) return put;
+    auto put = renderer_->put(piece, block);
+    if (put) continue;
+    renderer_->drop(piece, id);
+    taken = std::move(put);
   }
-  return {};
+  return taken;
+}
+
+/// Sent again all of them may fit, since those that are drawn go first. Once for each change of the
+/// clay: it may fail as before.
+void App::ask_for_lost_blocks(const Error& error) {
+  const std::int64_t changes = document_.state().changes;
+  if (std::exchange(lost_at_, changes) == changes) return;
+  tell(notice_of(error));
+  document_.send(SendBlocksAgain{});
 }
 
 void App::take_news() {
@@ -363,15 +376,16 @@ void App::take_news() {
   if (!news.empty()) has_new_blocks_ = true;
   for (const PieceKey piece : news.gone) renderer_->drop(piece);
   for (const auto& [piece, blocks] : news.pieces) {
-    if (auto taken = take_blocks(piece, blocks); !taken) {
-      tell(notice_of(taken.error()));
-      break;
-    }
+    if (auto taken = take_blocks(piece, blocks); !taken) ask_for_lost_blocks(taken.error());
   }
   const std::shared_ptr<const Stamp> former_stamp = ui_.clay.stamp;
   const std::shared_ptr<const Alpha> former_alpha = ui_.clay.alpha;
   const bool was_asked = ui_.clay.left.has_value();
+  const std::shared_ptr<const PieceList> former_pieces = ui_.clay.pieces;
+  const bool was_idle = document_.is_idle();  // before: then the state is that of all that was sent
   ui_.clay = document_.state();
+  // A piece that moves sends no blocks, and is another answer all the same.
+  if (ui_.clay.pieces != former_pieces) asked_.reset();
   if (was_asked && !ui_.clay.left) find_left_projects();  // the answer may have removed one
   if (ui_.clay.stamp != former_stamp) {
     ui_.brush.mesh = ui_.clay.stamp->mesh;
@@ -393,7 +407,7 @@ void App::take_news() {
     framed_ = ui_.clay.number;
     framed_pieces_ = ui_.clay.pieces_added;
   }
-  take_pieces();
+  take_pieces(was_idle);
   if (ui_.clay.has_clay && ui_.clay.file != last_file_) {
     note_recent();
     find_left_projects();
@@ -401,9 +415,11 @@ void App::take_news() {
   start_empty();
 }
 
+/// `was_idle`: all that was sent before is in the state.
+///
 /// A piece that was just added may stand outside of the picture. What lies on one piece, or in its
 /// frame, is of no use to another.
-void App::take_pieces() {
+void App::take_pieces(bool was_idle) {
   if (!ui_.clay.pieces) return;
   if (std::exchange(framed_pieces_, ui_.clay.pieces_added) != ui_.clay.pieces_added) {
     frame_in_each(ui_.camera, ui_.show.is_stereo, ui_.clay.all_bounds_mm);
@@ -416,8 +432,9 @@ void App::take_pieces() {
     asked_.reset();
   }
   const std::optional<PieceDrag>& drag = ui_.pieces.drag;
-  const bool is_done =
-      drag && drag->sent_at && (*drag->sent_at != ui_.clay.changes || document_.is_idle());
+  // Shown there until the document has it there, or has refused.
+  const Placement& there = ui_.clay.pieces->active_piece().look.placement;
+  const bool is_done = drag && drag->is_sent && (are_same(drag->placement, there) || was_idle);
   if (is_done || (drag && drag->piece != active)) ui_.pieces.drag.reset();
   const auto answer = document_.answer();
   const bool is_over = ui_.is_pointer_over_clay_view && answer;
@@ -510,9 +527,9 @@ void App::ask_for_hover() {
 void App::note_motion(double now_s) {
   const Lens lens = ui_.camera.lens({});
   // A piece that is dragged moves as the camera does.
-  const Vec3 dragged = ui_.pieces.drag ? ui_.pieces.drag->placement.position_mm : Vec3{};
+  const Placement dragged = ui_.pieces.drag ? ui_.pieces.drag->placement : Placement{};
   const bool is_new = std::exchange(seen_lens_, lens) != lens;
-  if (std::exchange(dragged_mm_, dragged) != dragged || is_new) moved_s_ = now_s;
+  if (!are_same(std::exchange(dragged_, dragged), dragged) || is_new) moved_s_ = now_s;
   in_motion_ = now_s - moved_s_ < kMotionS;
 }
 
@@ -541,9 +558,10 @@ SurfaceProbe App::probe(const Camera::Pixel& pixel) {
 void App::tick_haptics(double now_s) {
   std::optional<SurfaceHit> hit;
   const auto answer = document_.answer();
-  const bool leads = ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing();
-  const Placement at = shown_placement(ui_);
-  if (leads && answer && answer->pick) {
+  const bool leads =
+      (ui_.is_pointer_over_clay_view || gestures_.is_hand_pressing()) && !ui_.pieces.drag;
+  if (leads && answer && answer->pick && answer->piece == active_key(ui_.clay)) {
+    const Placement& at = answer->placement;  // the piece may have moved since
     hit = SurfaceHit{unplaced(at, answer->pick->point_mm), turned_back(at, answer->pick->normal)};
   }
   if (auto done = haptics_->tick(now_s, hit, gestures_.is_hand_pressing()); !done) {
@@ -575,7 +593,7 @@ std::optional<FeltForce> App::felt() const {
 void App::take_over_path(bool had_clay) {
   std::vector<Vec3>& path = ui_.haptics.guidance.path_mm;
   if (had_clay) return path.clear();
-  if (!path.empty()) document_.send(CheckPath{path});
+  if (!path.empty()) document_.send(CheckPath{path, active_key(ui_.clay)});
 }
 
 void App::draw_panels() {
@@ -664,7 +682,8 @@ Result<bool> App::play(const ScriptStep& step) {
 /// The next picture of a turntable, without panels and marks, into turntable-N-NN.png: the first N
 /// that none has yet.
 Result<void> App::turn_table() {
-  if (ui_.turntable_left == 0) return {};
+  // What is being drawn over the picture needs the camera where it is.
+  if (ui_.turntable_left == 0 || ui_.outline) return {};
   const fs::path folder = ui_.folder.empty() ? fs::path(".") : ui_.folder;
   assert(ui_.turntable_left > 0 && ui_.turntable_left <= kTurntableFrames);
   const int number = kTurntableFrames - ui_.turntable_left--;

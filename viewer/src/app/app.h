@@ -52,8 +52,9 @@ class App {
   Result<bool> play(const ScriptStep& step);
   void take_events(const std::vector<InputEvent>& events);
   void take_news();
+  void ask_for_lost_blocks(const Error& error);
   Result<void> take_blocks(PieceKey piece, const BlockNews& news);
-  void take_pieces();
+  void take_pieces(bool was_idle);
   void follow_camera();
   bool is_view_told() const;
   void ask_for_hover();
@@ -114,9 +115,10 @@ class App {
   bool has_new_blocks_ = false;       ///< since that question: its answer may be another now
   double last_s_ = 0.0;               ///< when the last frame began
   std::pair<int, int> refused_size_;  ///< of the last picture, if the driver could not draw it
+  std::int64_t lost_at_ = -1;         ///< ClayState::changes when all blocks were asked for again
   bool is_at_rest_ = false;           ///< the last frame had nothing new to show
   Lens seen_lens_;                    ///< of the last frame
-  Vec3 dragged_mm_;                   ///< where the piece that is dragged was in it
+  Placement dragged_;                 ///< where the piece that is dragged was in it
   double moved_s_ = 0.0;              ///< when it was last another one
   bool in_motion_ = false;            ///< that was just now
   bool is_fluent_ = true;             ///< all of the clay is drawn in less time than a turn needs

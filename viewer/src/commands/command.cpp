@@ -91,7 +91,9 @@ void look(UiState& ui, const Vec3& toward, const Vec3& up = {0.0, 0.0, 1.0}) {
   ui.camera.look_from(toward, up);
 }
 
-void edit_mask(MaskEdit edit, DocumentThread& document) { document.send(DoStep{edit}); }
+void edit_mask(MaskEdit edit, const UiState& ui, DocumentThread& document) {
+  document.send(DoStep{edit, active_key(ui.clay)});
+}
 
 /// A project without a name is asked for one first.
 void save(UiState& ui, DocumentThread& document) {
@@ -200,6 +202,12 @@ bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
       ui.panels.has_pieces = !ui.panels.has_pieces;
       return true;
     case Command::piece_switch:
+      if (!ui.is_pointer_over_clay_view) {  // it would be one behind a panel
+        ui.notices.push_back({Notice::Kind::warning,
+                              "point at a piece in the picture and press "
+                              "Alt+Q, or click it twice"});
+        return true;
+      }
       document.send(
           SelectPieceAt{part_at(ui.camera, ui.show.is_stereo, ui.pointer).ray_at(ui.pointer)});
       return true;
@@ -372,16 +380,16 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
       ui.operation.voxel_mm = ui.clay.voxel_mm;  // what it is now, to be made finer or coarser
       break;
     case Command::mask_invert:
-      edit_mask(MaskEdit::invert, document);
+      edit_mask(MaskEdit::invert, ui, document);
       break;
     case Command::mask_clear:
-      edit_mask(MaskEdit::clear, document);
+      edit_mask(MaskEdit::clear, ui, document);
       break;
     case Command::mask_blur:
-      edit_mask(MaskEdit::blur, document);
+      edit_mask(MaskEdit::blur, ui, document);
       break;
     case Command::mask_fill:
-      edit_mask(MaskEdit::fill, document);
+      edit_mask(MaskEdit::fill, ui, document);
       break;
     case Command::screenshot:
       ui.wants_screenshot = true;

@@ -50,8 +50,8 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       release(event);
       break;
     case InputEvent::Kind::scroll:
-      // A handle that is held stays where the camera saw it.
-      if (!is_taken && !is_asked && drag_ != Drag::piece) {
+      // A handle that is held stays where the camera saw it, and so does an outline.
+      if (!is_taken && !is_asked && drag_ != Drag::piece && drag_ != Drag::outline) {
         ui_.camera.zoom(std::pow(kZoomStep, event.steps),
                         between_eyes(ui_.camera, ui_.show.is_stereo, pixel_of(event)));
       }
@@ -103,6 +103,7 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     ui_.is_clutched = true;
     return;
   }
+  if (drag_ == Drag::hand) return;  // as a stroke, but that the hand may let go of the tool
   const KeyChord chord{key_meant(event.key, ui_.settings), event.modifiers};
   if (const auto command = command_of(chord)) {
     if (!event.is_repeat || goes_on_while_held(*command)) perform(*command, ui_, document_);
@@ -225,6 +226,7 @@ bool Gestures::begin_outline(const InputEvent& event) {
   if (drag.form == DragForm::brush) return false;
   drag.is_inverse = !held.shift && held.ctrl != ui_.brush.is_inverted;
   drag.part = part_at(ui_.camera, ui_.show.is_stereo, pixel_of(event));
+  drag.key = active_key(ui_.clay);
   drag.piece = shown_placement(ui_);
   drag.points = {pixel_of(event)};
   ui_.outline = std::move(drag);
@@ -233,8 +235,8 @@ bool Gestures::begin_outline(const InputEvent& event) {
 
 void Gestures::end_outline() {
   assert(ui_.outline);
-  if (auto step = step_of(*ui_.outline, ui_.clay.bounds_mm, ui_.outlines.front_only)) {
-    document_.send(DoStep{std::move(*step)});
+  if (auto wanted = request_of(*ui_.outline, ui_.outlines.front_only)) {
+    document_.send(std::move(*wanted));
   }
   ui_.outline.reset();
 }

@@ -4,10 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "argil/core/triangle_mesh.h"
-#include "argil/engine/mask_outline.h"
-#include "argil/io/stroke_script.h"
-
+#include "document/request.h"
 #include "picture/camera.h"
 #include "picture/piece_frame.h"
 #include "picture/stereo.h"
@@ -30,7 +27,8 @@ struct OutlineDrag {
   bool is_trim = false;               ///< else it masks
   bool is_inverse = false;            ///< frees what is within; trims what is not
   WindowPart part;                    ///< the picture that it is drawn in
-  Placement piece = {};               ///< of the piece that it is drawn over
+  std::optional<PieceKey> key = {};   ///< of the piece that it is drawn over
+  Placement piece = {};               ///< where that is shown
   std::vector<Camera::Pixel> points;  ///< of the window; of a box two corners, of a line its ends
 };
 
@@ -46,14 +44,7 @@ std::vector<Camera::Pixel> outline_of(const OutlineDrag& drag);
 /// counter-clockwise where y points up.
 std::vector<std::vector<Camera::Pixel>> simple_loops(std::vector<Camera::Pixel> points);
 
-/// What the drag does to the piece, all in its own frame, whose clay is within these bounds;
-/// nothing for a click, or an outline beside it.
-std::optional<io::ScriptStep> step_of(const OutlineDrag& drag, const Box3& bounds_mm,
-                                      bool front_only);
-
-/// What a view shows within a loop, as a closed mesh from before the box until behind it; empty
-/// where it shows nothing of the box there.
-TriangleMesh solid_behind(const ViewFrame& view, const std::vector<PicturePoint>& loop,
-                          const Box3& bounds_mm);
+/// What the drag does to the piece, in its frame; nothing for a click.
+std::optional<Request> request_of(const OutlineDrag& drag, bool front_only);
 
 }  // namespace argil::viewer

@@ -14,10 +14,9 @@ void edit_piece(PieceEdit edit, DocumentThread& document) {
 std::string other_piece(const UiState& ui) {
   if (!ui.clay.pieces || ui.clay.pieces->pieces.size() < 2) return "";
   const PieceList& list = *ui.clay.pieces;
-  const auto is_there = [&](const PieceState& piece) { return piece.look.name == ui.pieces.other; };
-  const bool is_other = ui.pieces.other != list.active_piece().look.name;
-  if (is_other && std::any_of(list.pieces.begin(), list.pieces.end(), is_there)) {
-    return ui.pieces.other;
+  for (const PieceState& piece : list.pieces) {
+    const bool is_active = piece.key == list.active_piece().key;
+    if (piece.key == ui.pieces.other && !is_active) return piece.look.name;
   }
   return list.pieces[(list.active + 1) % list.pieces.size()].look.name;
 }

@@ -68,6 +68,7 @@ bool PieceGestures::press(const InputEvent& event) {
   if (!handle) return false;
   const Placement before = shown_placement(ui_);
   drag_.emplace(*gizmo, *handle, part.camera, pixel, before);
+  drag_part_ = part;
   ui_.pieces.drag = PieceDrag{ui_.clay.pieces->active_piece().key, before};
   ui_.pieces.handle = handle;
   return true;
@@ -79,12 +80,14 @@ void PieceGestures::move(const InputEvent& event) {
   if (refused && std::hypot(event.x - refused->x, event.y - refused->y) > kNearPixels) {
     ui_.pieces.refused_at.reset();
   }
-  const WindowPart part = part_under_pointer(ui_, {event.x, event.y});
-  const Camera::Pixel pixel = part.inside({event.x, event.y});
   if (drag_ && ui_.pieces.drag) {
+    // In stereo the hand may leave the half of the eye that it began in.
+    const Camera::Pixel pixel = drag_part_.inside({event.x, event.y});
     ui_.pieces.drag->placement = drag_->to(pixel, event.modifiers.ctrl);
     return;
   }
+  const WindowPart part = part_under_pointer(ui_, {event.x, event.y});
+  const Camera::Pixel pixel = part.inside({event.x, event.y});
   const auto gizmo = shown_gizmo(ui_, part.camera);
   ui_.pieces.handle = gizmo ? part_under(*gizmo, part.camera, pixel) : std::nullopt;
 }
@@ -100,8 +103,7 @@ void PieceGestures::release() {
     return;
   }
   place_active(aim, ui_, document_);
-  // Shown there until the document says the same.
-  ui_.pieces.drag->sent_at = ui_.clay.changes;
+  ui_.pieces.drag->is_sent = true;
 }
 
 bool PieceGestures::cancel() {

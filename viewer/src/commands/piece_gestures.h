@@ -8,6 +8,7 @@
 #include "input/input_event.h"
 #include "picture/gizmo.h"
 #include "picture/piece_frame.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 
@@ -47,6 +48,7 @@ class PieceGestures {
   UiState& ui_;
   DocumentThread& document_;
   std::optional<GizmoDrag> drag_;
+  WindowPart drag_part_;                  ///< in which it began
   std::optional<InputEvent> last_press_;  ///< on another piece
 };
 

@@ -149,8 +149,7 @@ struct BrushDrag {
 struct PieceDrag {
   PieceKey piece = 0;
   Placement placement = {};
-  /// ClayState::changes when the document was told; nothing while it is held.
-  std::optional<std::int64_t> sent_at = std::nullopt;
+  bool is_sent = false;  ///< to the document; while it is held it is not
 };
 
 /// What the window remembers of pieces.
@@ -158,7 +157,7 @@ struct PieceChoice {
   bool has_gizmo = false;
   std::optional<GizmoPart> handle;  ///< under the pointer, or held
   std::optional<PieceDrag> drag;
-  std::string other;  ///< to merge with
+  std::optional<PieceKey> other;  ///< to merge with, as chosen
   bool keeps_other = false;
   std::optional<PieceKey> listed;   ///< the active one, to which the list was scrolled
   std::optional<PieceKey> renamed;  ///< whose name is being typed

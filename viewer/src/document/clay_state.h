@@ -104,6 +104,12 @@ struct ClayState {
   std::shared_ptr<const MeshOffer> offer;  ///< the last mesh that was looked at; null: none
 };
 
+/// Of the piece that strokes go to; nothing without clay.
+inline std::optional<PieceKey> active_key(const ClayState& state) {
+  if (!state.pieces) return std::nullopt;
+  return state.pieces->active_piece().key;
+}
+
 /// The verdict on the last CheckPrint or ExportMesh.
 struct PrintReport {
   mesh::MeshVerdict verdict;

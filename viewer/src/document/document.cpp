@@ -64,16 +64,16 @@ Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) 
                "cannot remove " + in_quotes(file.string()) + " (" + error.message() + ")"};
 }
 
+void add_count(std::int64_t n, const char* what, std::vector<std::string>& notes) {
+  if (n > 0) notes.push_back(std::to_string(n) + " " + what);
+}
+
 /// What was repaired on import, in sentences.
 std::vector<std::string> told(const mesh::CloseReport& closing, const ImportReport& import) {
-  std::vector<std::string> notes;
-  const auto count = [&](std::int64_t n, const char* what) {
-    if (n > 0) notes.push_back(std::to_string(n) + " " + what);
-  };
-  count(closing.holes_closed, "holes of the mesh were closed");
-  count(closing.parts_flipped, "parts of the mesh were turned to face outward");
+  std::vector<std::string> notes = closing_notes(closing);
   if (import.winding_bridged) notes.emplace_back("open gaps of the mesh were bridged");
-  count(import.lost_vertices, "vertices on tips or sheets thinner than two voxels were lost");
+  add_count(import.lost_vertices, "vertices on tips or sheets thinner than two voxels were lost",
+            notes);
   return notes;
 }
 
@@ -132,6 +132,13 @@ Result<Imported> pieces_of(const fs::path& mesh, const MeshImport& how, const Pr
 }
 
 }  // namespace
+
+std::vector<std::string> closing_notes(const mesh::CloseReport& closing) {
+  std::vector<std::string> notes;
+  add_count(closing.holes_closed, "holes of the mesh were closed", notes);
+  add_count(closing.parts_flipped, "parts of the mesh were turned to face outward", notes);
+  return notes;
+}
 
 fs::path usual_home() {
   // Called before any thread is started, and nothing changes the environment.

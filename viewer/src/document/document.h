@@ -11,6 +11,7 @@
 #include "argil/core/result.h"
 #include "argil/io/session.h"
 #include "argil/io/stroke_script.h"
+#include "argil/mesh/close.h"
 
 #include "document/mesh_offer.h"
 #include "document/step_history.h"
@@ -104,6 +105,9 @@ bool has_steps_aside(const std::filesystem::path& project);
 
 /// The projects without a name that a killed window left in the home folder, newest first.
 std::vector<std::filesystem::path> left_untitled(const std::filesystem::path& home);
+
+/// What was done to close a mesh before it became clay, in sentences.
+std::vector<std::string> closing_notes(const mesh::CloseReport& closing);
 
 /// Where a user's files of Argil are kept: $XDG_DATA_HOME/argil, else ~/.local/share/argil, else a
 /// folder for temporary files.

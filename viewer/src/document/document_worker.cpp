@@ -191,6 +191,10 @@ std::optional<ScenePick> DocumentWorker::pick_at(const Ray& ray) {
 PointerAnswer DocumentWorker::answer(const Ray& ray, const std::optional<Touch>& touch) {
   PointerAnswer answer;
   answer.ray = ray;
+  if (document_.has_project()) {
+    answer.piece = feed_.key_of(document_.clay());
+    answer.placement = active_look().placement;
+  }
   const auto picked = pick_at(ray);
   if (!picked) return answer;
   const Sculpture& sculpture = document_.sculpture();
@@ -246,6 +250,8 @@ void DocumentWorker::take_hand() {
   assert(!hand_worker_);
   // While the mouse draws a stroke the hand waits: it would end that one as its own.
   if (!document_.has_project() || document_.clay().is_stroke_open()) return;
+  // Until the window has started the device anew for the piece that is active now.
+  if (!check_is_active(link_->piece)) return;
   ClayWorkerOptions options;
   options.may_begin = [this] { return check_may_be_worked().ok(); };
   options.tool = link_->tool;
@@ -290,13 +296,14 @@ bool DocumentWorker::has_clay(const char* what) {
 
 void DocumentWorker::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
-  if (auto may = check_may_be_worked(); !may) return complain(may.error());
   // One whose dabs the clay still works off, or a clay of which only coarse levels are shown: a
   // preview begins with what is drawn of the clay.
   const bool is_behind = has_backlog();
   end_open_stroke();
-  if (is_behind) show();
+  // Also where it is refused: Escape takes back nothing of the gesture before.
   if (!begin.goes_on) gesture_strokes_ = 0;
+  if (auto may = check_may_be_worked(); !may) return complain(may.error());
+  if (is_behind) show();
   is_stamp_ = begin.is_stamp;
   // Without memory for it the clay itself is shown.
   BlockFeed& feed = feed_.active(document_.sculpture());
@@ -443,6 +450,8 @@ bool DocumentWorker::apply_history(io::HistoryStep move) {
 void DocumentWorker::on(const DoStep& wanted) {
   if (!has_clay("change")) return;
   end_open_stroke();
+  gesture_strokes_ = 0;  // what Escape would undo now is this step
+  if (auto may = check_step(wanted); !may) return complain(may.error());
   const auto* move = std::get_if<io::HistoryStep>(&wanted.step);
   const bool is_history = move != nullptr;
   const bool may_mask = may_touch_mask(wanted.step);
@@ -464,12 +473,25 @@ void DocumentWorker::on(const DoStep& wanted) {
   ++changes_;
   piece_list_changed();
   is_slice_stale_ = true;
+  if (const auto* edit = std::get_if<PieceEdit>(&wanted.step)) post_merge(*edit);
   if (may_mask) feed_.touch_masks();
+}
+
+/// The bounds are those that the steps before left, which the window may not have seen yet.
+void DocumentWorker::on(const TrimPiece& trim) {
+  if (!has_clay("trim")) return;
+  end_open_stroke();
+  if (auto is_active = check_is_active(trim.piece); !is_active) {
+    return complain(is_active.error());
+  }
+  auto combine = combine_of(trim.trim, document_.clay().bounds_mm());
+  if (combine) on(DoStep{Operation(std::move(*combine)), trim.piece});
 }
 
 void DocumentWorker::on(const GoToStep& wanted) {
   if (!has_clay("change")) return;
   end_open_stroke();
+  gesture_strokes_ = 0;
   // The window may have counted steps that are gone meanwhile.
   const std::size_t most = document_.history().steps().size();
   const std::size_t aim = std::min(wanted.done, most);
@@ -486,6 +508,7 @@ void DocumentWorker::on(const GoToStep& wanted) {
 
 /// The clay was replaced, or there is none any more: nothing of the old one may be shown.
 void DocumentWorker::clay_changed_hands() {
+  gesture_strokes_ = 0;
   preview_.reset();
   is_preview_ending_ = false;
   feed_.restart();
@@ -602,8 +625,14 @@ void DocumentWorker::on(const LoadAlpha& load) {
 /// A warning only: the path is drawn, so that whoever sees it can tell what is wrong.
 void DocumentWorker::on(const CheckPath& check) {
   if (!document_.has_project()) return;
+  if (!check_is_active(check.piece)) return;
   const auto on_clay = check_path_on_clay(document_.clay(), check.path_mm);
   if (!on_clay) post(Notice::Kind::warning, on_clay.error().message);
+}
+
+void DocumentWorker::on(const SendBlocksAgain&) {
+  if (document_.has_project()) end_open_stroke();  // its preview is drawn by the blocks before
+  feed_.restart();
 }
 
 void DocumentWorker::on(const SaveProject&) {
@@ -646,7 +675,8 @@ void DocumentWorker::on(const EndProject& end) {
 void DocumentWorker::on(const ExportMesh& wanted) {
   if (!has_clay("export")) return;
   end_open_stroke();
-  const bool is_together = document_.sculpture().piece_count() > 1 && !wanted.options.parts &&
+  // A single piece that was placed, coloured or named keeps that where the format can tell it.
+  const bool is_together = !document_.sculpture().is_plain() && !wanted.options.parts &&
                            extension_of(wanted.file) == ".3mf";
   if (is_together) return export_pieces(wanted);
   const Progress progress = outbox_.begin_task("export");
@@ -661,10 +691,12 @@ void DocumentWorker::on(const ExportMesh& wanted) {
   report->exported = std::move(exported).value();
   const bool good = report->verdict.printable;
   report_ = std::move(report);
-  const bool is_alone = document_.sculpture().piece_count() > 1;
+  std::string how;
+  if (document_.sculpture().piece_count() > 1) how += in_quotes(active_look().name) + " alone ";
+  if (!are_same(active_look().placement, {})) how += "in its own frame ";
   post(good ? Notice::Kind::done : Notice::Kind::warning,
-       "exported " + (is_alone ? in_quotes(active_look().name) + " alone to " : "") +
-           file_in_quotes(wanted.file) + (good ? ": printable" : ": not printable, see Print"));
+       "exported " + how + (how.empty() ? "" : "to ") + file_in_quotes(wanted.file) +
+           (good ? ": printable" : ": not printable, see Print"));
 }
 
 /// A check that fails or is stopped leaves the former report, whose `changes` tell its age.

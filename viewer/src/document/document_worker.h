@@ -57,6 +57,7 @@ class DocumentWorker {
   void on(const EndStroke&);
   void on(const CancelStroke&);
   void on(const DoStep& step);
+  void on(const TrimPiece& trim);
   void on(const GoToStep& wanted);
   void on(const SelectPieceAt& wanted);
   void on(const AddBallPiece&);
@@ -72,6 +73,7 @@ class DocumentWorker {
   void on(const LoadStamp& load);
   void on(const LoadAlpha& load);
   void on(const CheckPath& check);
+  void on(const SendBlocksAgain&);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
   void on(const EndProject& end);
@@ -83,6 +85,8 @@ class DocumentWorker {
   bool has_clay(const char* what);
   const PieceLook& active_look();
   Result<void> check_may_be_worked();
+  Result<void> check_is_active(std::optional<PieceKey> piece);
+  Result<void> check_step(const DoStep& wanted);
   SceneFeed::ViewOf view_to_show();
   std::optional<ScenePick> pick_at(const Ray& ray);
   void note_mask(const Stroke& stroke);
@@ -103,6 +107,7 @@ class DocumentWorker {
   void post_slice();
 
   void add_piece(const AddPiece& add);
+  void post_merge(const PieceEdit& edit);
   bool may_touch_mask(const io::ScriptStep& step) const;
   void piece_list_changed() noexcept { is_list_stale_ = looks_at_all_ = true; }
   void export_pieces(const ExportMesh& wanted);

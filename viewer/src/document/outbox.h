@@ -34,6 +34,8 @@ struct PointerAnswer {
   Ray ray;
   std::optional<Pick> pick;  ///< of the active piece, where no other is in front of it
   std::optional<FeltForce> felt;
+  PieceKey piece = 0;  ///< the active one, and where it stood
+  Placement placement;
   std::string other;  ///< the name of the piece that is met instead; "" none
 };
 

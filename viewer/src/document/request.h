@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -18,6 +19,8 @@
 #include "argil/mesh/printer.h"
 
 #include "document/mesh_offer.h"
+#include "picture/outline_trim.h"
+#include "picture/renderer.h"
 
 namespace argil::viewer {
 
@@ -45,6 +48,16 @@ struct CancelStroke {};
 /// one step of the journal.
 struct DoStep {
   io::ScriptStep step;
+  /// That an operation or its numbers were meant for: refused where another one is active by then.
+  /// Nothing: whichever is. Undo, redo and changes of pieces are meant for no single one.
+  std::optional<PieceKey> piece = {};
+};
+
+/// Trims this piece within or around what was outlined over it, as deep as its clay is by then.
+/// Nothing where the outline lies beside it.
+struct TrimPiece {
+  OutlineTrim trim;               ///< in the piece's frame
+  std::optional<PieceKey> piece;  ///< as of DoStep
 };
 
 /// Strokes go to the piece that a ray meets first; nothing where it meets none.
@@ -103,9 +116,10 @@ struct LoadAlpha {
   std::filesystem::path file;
 };
 /// Says by a notice where a path of guidance, in the active piece's frame, does not lie on the
-/// clay; nothing where it does.
+/// clay; nothing where it does, or where another piece than that of the path is active by then.
 struct CheckPath {
   std::vector<Vec3> path_mm;
+  std::optional<PieceKey> piece = {};  ///< nothing: whichever is active
 };
 /// Drops the question ClayState::left. The document that is open stays open.
 struct ForgetQuestion {};
@@ -113,6 +127,8 @@ struct ForgetQuestion {};
 struct DropProject {
   std::filesystem::path file;
 };
+/// A renderer had no room for blocks: all of them are sent again, and what it has of them may go.
+struct SendBlocksAgain {};
 struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path file;
@@ -140,13 +156,17 @@ struct LinkHaptics {
   ClayHeartbeat* heartbeat = nullptr;
   Tool tool;
   StrokeStyle style;
+  /// In whose frame the samples are: while another one is active the hand neither works nor feels.
+  /// Nothing: whichever is.
+  std::optional<PieceKey> piece = {};
 };
 struct UnlinkHaptics {};
 
-using Request = std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, GoToStep,
-                             SelectPieceAt, AddBallPiece, ImportPiece, DuplicatePiece, StandPiece,
-                             NewClay, OpenFile, LookAtMesh, ImportMesh, ForgetQuestion, DropProject,
-                             LoadStamp, LoadAlpha, CheckPath, SaveProject, SaveProjectAs,
-                             EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+using Request =
+    std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, TrimPiece, GoToStep,
+                 SelectPieceAt, AddBallPiece, ImportPiece, DuplicatePiece, StandPiece, NewClay,
+                 OpenFile, LookAtMesh, ImportMesh, ForgetQuestion, DropProject, LoadStamp,
+                 LoadAlpha, CheckPath, SendBlocksAgain, SaveProject, SaveProjectAs, EndProject,
+                 ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 }  // namespace argil::viewer

@@ -29,7 +29,9 @@ class SceneDistance {
       const Vec3 own = unplaced(piece.placement, point_mm);
       // Most pieces are farther away than the one that was looked at first.
       const bool is_looked_at = std::exchange(is_first, false);
-      if (!is_looked_at && distance_to_box(piece.bounds_mm, own) >= nearest) continue;
+      // Within its box it may reach deeper than the ones before.
+      const double beside = distance_to_box(piece.bounds_mm, own);
+      if (!is_looked_at && beside > 0.0 && beside >= nearest) continue;
       nearest = std::min(nearest, piece.clay->distance_at(own));
     }
     return nearest;

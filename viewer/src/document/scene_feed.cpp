@@ -32,23 +32,23 @@ void SceneFeed::restart() noexcept {
 }
 
 SceneNews SceneFeed::drop_all() {
-  SceneNews news;
-  news.gone = std::exchange(gone_, {});
-  for (const auto& [clay, followed] : followed_) news.gone.push_back(followed.key);
+  gone_.reserve(gone_.size() + followed_.size());  // all of them, or none is forgotten yet
+  for (const auto& [clay, followed] : followed_) gone_.push_back(followed.key);
   followed_.clear();
   is_fresh_ = true;
+  SceneNews news;
+  news.gone = std::exchange(gone_, {});
   return news;
 }
 
-void SceneFeed::forget_gone(const Sculpture& sculpture, SceneNews& news) {
-  news.gone = std::exchange(gone_, {});
+void SceneFeed::forget_gone(const Sculpture& sculpture) {
   std::set<const Clay*> here;
   for (std::size_t n = 0; n < sculpture.piece_count(); ++n) here.insert(&sculpture.clay(n));
   for (auto at = followed_.begin(); at != followed_.end();) {
     if (here.contains(at->first)) {
       ++at;
     } else {
-      news.gone.push_back(at->second.key);
+      gone_.push_back(at->second.key);
       at = followed_.erase(at);
     }
   }
@@ -58,7 +58,7 @@ Result<SceneNews> SceneFeed::update(const Sculpture& sculpture, const ViewOf& vi
                                     bool looks_at_all) {
   SceneNews news;
   looks_at_all = std::exchange(is_fresh_, false) || looks_at_all;
-  if (looks_at_all) forget_gone(sculpture, news);
+  if (looks_at_all) forget_gone(sculpture);
   for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
     const PieceLook& look = sculpture.look(n);
     if (!look.is_visible || (!looks_at_all && n != sculpture.active())) continue;
@@ -69,11 +69,11 @@ Result<SceneNews> SceneFeed::update(const Sculpture& sculpture, const ViewOf& vi
     auto updated = followed.feed.update(clay, view);
     if (!updated) {
       restart();
-      gone_ = std::move(news.gone);
       return updated.error();
     }
     if (!updated.value().empty()) news.pieces.emplace(followed.key, std::move(updated).value());
   }
+  news.gone = std::exchange(gone_, {});
   return news;
 }
 

@@ -65,11 +65,11 @@ class SceneFeed {
     BlockFeed feed;
   };
   Followed& follow(const Clay& clay);
-  void forget_gone(const Sculpture& sculpture, SceneNews& news);
+  void forget_gone(const Sculpture& sculpture);
 
   /// Clays stay where they are for as long as a piece can be undone or repeated.
   std::map<const Clay*, Followed> followed_;
-  std::vector<PieceKey> gone_;  ///< not told yet
+  std::vector<PieceKey> gone_;  ///< not told yet, also where what was to tell of them failed
   PieceKey next_key_ = 0;
   bool is_fresh_ = true;
 };

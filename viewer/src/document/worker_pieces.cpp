@@ -33,6 +33,33 @@ Result<void> DocumentWorker::check_may_be_worked() {
                                          " is hidden; show it, or choose another"};
 }
 
+/// Errors  bad_input: another piece is the active one by now.
+Result<void> DocumentWorker::check_is_active(std::optional<PieceKey> piece) {
+  if (!piece || feed_.key_of(document_.clay()) == *piece) return {};
+  return Error{ErrorKind::bad_input, "this was meant for another piece than " +
+                                         in_quotes(active_look().name) +
+                                         ", which is the one that is worked now; do it again"};
+}
+
+/// Errors  bad_input: it was meant for another piece, or nobody would see what it does.
+Result<void> DocumentWorker::check_step(const DoStep& wanted) {
+  if (std::holds_alternative<io::HistoryStep>(wanted.step)) return {};
+  const Sculpture& sculpture = document_.sculpture();
+  if (const auto* edit = std::get_if<PieceEdit>(&wanted.step)) {
+    const auto* merge = std::get_if<MergePiece>(edit);
+    if (merge == nullptr) return {};
+    for (const std::string& name : {merge->name, merge->other}) {
+      const auto at = sculpture.find(name);
+      if (!at || sculpture.look(*at).is_visible) continue;  // that there is none is said later
+      return Error{ErrorKind::bad_input,
+                   "the piece " + in_quotes(name) + " is hidden; show it before it is merged"};
+    }
+    return {};
+  }
+  if (auto is_active = check_is_active(wanted.piece); !is_active) return is_active;
+  return check_may_be_worked();
+}
+
 // ---- the list ----------------------------------------------------------------------------------
 
 /// The list is made anew when a step may have changed it, and then shared; of the active piece,
@@ -86,6 +113,14 @@ void DocumentWorker::on(const SelectPieceAt& wanted) {
   on(DoStep{PieceEdit{SelectPiece{sculpture.look(picked->piece).name}}});
 }
 
+/// Which piece is gone: the window may have chosen it.
+void DocumentWorker::post_merge(const PieceEdit& edit) {
+  const auto* merge = std::get_if<MergePiece>(&edit);
+  if (merge == nullptr || merge->keeps_other) return;
+  post(Notice::Kind::done, in_quotes(merge->other) + " was combined with " +
+                               in_quotes(merge->name) + " and is gone; undo brings it back");
+}
+
 /// The window looks at all pieces once there is one more.
 void DocumentWorker::add_piece(const AddPiece& add) {
   const std::size_t before = document_.sculpture().piece_count();
@@ -122,12 +157,11 @@ void DocumentWorker::on(const ImportPiece& import) {
   outbox_.end_task();
   if (!prepared) return complain(prepared.error());
   post_all(io::frame_doubts(import.file, prepared.value().frame));
+  post_all(closing_notes(prepared.value().closing));
   AddPiece add;
   // A file may be called what no piece can.
-  PieceLook look;
-  look.name = import.file.stem().string();
-  if (!validate_look(look)) look.name = "Mesh";
-  add.look.name = document_.sculpture().free_name(look.name);
+  const std::string name = io::piece_names({import.file.stem().string()}).front();
+  add.look.name = document_.sculpture().free_name(name);
   add.voxel_mm = prepared.value().largest_side_mm / io::kUsualResolution;
   add.mesh = std::make_shared<const TriangleMesh>(std::move(prepared.value().mesh));
   add_piece(add);
@@ -144,6 +178,7 @@ void DocumentWorker::on(const DuplicatePiece&) {
 void DocumentWorker::on(const StandPiece& wanted) {
   if (!has_clay("move")) return;
   end_open_stroke();
+  if (auto free = document_.sculpture().check_unlocked(); !free) return complain(free.error());
   const Progress progress = outbox_.begin_task("measure");
   auto surface = extract_surface(document_.clay(), progress);
   outbox_.end_task();
@@ -191,8 +226,9 @@ void DocumentWorker::export_pieces(const ExportMesh& wanted) {
   report->verdict = shown.report.verdict;
   report->exported = shown.report;
   report_ = std::move(report);
-  const std::string what = "exported " + in_quotes(wanted.file.filename().string()) + ": " +
-                           std::to_string(parts.size()) + " pieces, ";
+  const std::string count =
+      parts.size() > 1 ? std::to_string(parts.size()) + " pieces, " : std::string();
+  const std::string what = "exported " + in_quotes(wanted.file.filename().string()) + ": " + count;
   if (bad.empty()) return post(Notice::Kind::done, what + "printable");
   post(Notice::Kind::warning, what + "not printable: " + bad);
 }

@@ -73,6 +73,20 @@ bool is_outside(const std::array<float, 3>& center, const std::array<float, 3>& 
   return false;
 }
 
+bool is_box_outside(const Box3& box, std::span<const BoundPlane> bounds) {
+  if (box.empty()) return true;
+  const Vec3 center = box.center();
+  const Vec3 half = 0.5 * box.size();
+  std::array<float, 3> middle{};
+  std::array<float, 3> reach{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    middle[a] = static_cast<float>(center[a]);
+    // Rounded outward: no block within may reach out of it.
+    reach[a] = static_cast<float>(half[a] + 1e-6 * (std::abs(center[a]) + half[a]));
+  }
+  return is_outside(middle, reach, bounds);
+}
+
 /// Whether a lens sees all triangles of a block from behind. Source: the cone test of meshoptimizer
 /// (meshopt_computeClusterBounds), about the box's middle. A cone that is almost seen from the side
 /// is kept: facing is worked out in float.
@@ -151,6 +165,8 @@ Result<void> GlBlocks::put(const BlockMesh& block) {
   triangles_ += slot.ranges[kFine].count;
   const Vec3 center = block.bounds_mm.center();
   const Vec3 half = 0.5 * block.bounds_mm.size();
+  reach_mm_.include(block.bounds_mm.min);
+  reach_mm_.include(block.bounds_mm.max);
   for (std::size_t a = 0; a < 3; ++a) {
     slot.center_mm[a] = static_cast<float>(center[a]);
     slot.half_mm[a] = static_cast<float>(half[a]);
@@ -329,12 +345,18 @@ void GlBlocks::drop(const BlockId& id) {
 void GlBlocks::clear() {
   pages_.clear();
   locations_.clear();
+  reach_mm_ = {};
   triangles_ = 0;
   memory_bytes_ = 0;
 }
 
 std::int64_t GlBlocks::choose(const BlockChoice& choice) {
   chosen_ = choice.is_coarse && has_coarse_ ? kCoarse : kFine;
+  // Of many pieces most lie beside the area that a dab touched.
+  if (is_box_outside(reach_mm_, choice.bounds)) {
+    for (const auto& page : pages_) choose_none(*page);
+    return 0;
+  }
   std::int64_t triangles = 0;
   for (const auto& page : pages_) triangles += choose_in(*page, choice);
   return triangles;
@@ -353,12 +375,16 @@ const std::vector<std::size_t>& GlBlocks::order_of(Page& page, Detail detail) {
   return order;
 }
 
-std::int64_t GlBlocks::choose_in(Page& page, const BlockChoice& choice) {
-  // The vectors keep their memory from frame to frame.
+/// The vectors keep their memory from frame to frame.
+void GlBlocks::choose_none(Page& page) {
   for (Batch& batch : page.batches) {
     batch.counts.clear();
     batch.offsets.clear();
   }
+}
+
+std::int64_t GlBlocks::choose_in(Page& page, const BlockChoice& choice) {
+  choose_none(page);
   std::int64_t triangles = 0;
   // The end of the last range that was chosen, of the slots behind it, and its batch.
   std::uint32_t end = 0;

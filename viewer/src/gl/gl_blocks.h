@@ -66,7 +66,8 @@ class GlBlocks {
   void drop(const BlockId& id);
   void clear();
 
-  /// Chooses what the next draw shows. Some 20 ns a block. Returns how many triangles they have.
+  /// Chooses what the next draw shows. Some 20 ns a block, where any can lie within the bounds.
+  /// Returns how many triangles they have.
   std::int64_t choose(const BlockChoice& choice);
 
   /// Draws what was chosen, level after level, the finest first; calls `begin` with the number of
@@ -153,12 +154,14 @@ class GlBlocks {
   static const std::vector<std::size_t>& order_of(Page& page, Detail detail);
   void upload(Page& page, const Slot& slot, const BlockMesh& block,
               std::span<const Triangle> coarse);
+  static void choose_none(Page& page);
   std::int64_t choose_in(Page& page, const BlockChoice& choice);
 
   ObjectCount& count_;
   bool has_coarse_;
   std::vector<std::unique_ptr<Page>> pages_;
   std::unordered_map<BlockId, Location, IdHash> locations_;
+  Box3 reach_mm_;  ///< around all blocks that have been here since it was empty
   std::int64_t triangles_ = 0;
   std::int64_t uploaded_bytes_ = 0;
   std::int64_t memory_bytes_ = 0;

@@ -49,11 +49,6 @@ bool are_same(const Brush& a, const Brush& b) noexcept {
          a.radial.count == b.radial.count && a.radial.axis == b.radial.axis;
 }
 
-std::optional<PieceKey> active_key(const ClayState& clay) {
-  if (!clay.pieces) return std::nullopt;
-  return clay.pieces->active_piece().key;
-}
-
 }  // namespace
 
 HapticControl::HapticControl(UiState& ui, DocumentThread& document, haptics::FalconOptions falcon)
@@ -142,7 +137,7 @@ Result<void> HapticControl::start(double now_s) {
   }
   Tool tool = tool_of(brush_with(ui_.brush, {}), rig_.options().tool.radii_mm.x);
   document_.send(
-      LinkHaptics{&rig_.ring(), &rig_.channel(), &heartbeat_, tool, style_of(ui_.brush)});
+      LinkHaptics{&rig_.ring(), &rig_.channel(), &heartbeat_, tool, style_of(ui_.brush), piece_});
   return {};
 }
 

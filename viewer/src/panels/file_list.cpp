@@ -95,7 +95,7 @@ void take_path(const fs::path& file, UiState& ui, DocumentThread& document) {
     ui.notices.push_back({Notice::Kind::error, path.error().message});
     return;
   }
-  document.send(CheckPath{path.value()});
+  document.send(CheckPath{path.value(), active_key(ui.clay)});
   ui.haptics.guidance.path_mm = std::move(path).value();
   if (ui.haptics.guidance.kind == haptics::GuidanceKind::none) {
     ui.haptics.guidance.kind = haptics::GuidanceKind::direct;

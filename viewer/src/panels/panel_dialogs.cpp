@@ -96,7 +96,7 @@ void draw_operations(UiState& ui, DocumentThread& document) {
   if (!begin_dialog("Whole clay", is_asked, &ui.panels.is_operations_open, layout)) return;
   ImGui::PushItemWidth(90.0F * unit());
   if (const auto wanted = draw_operation_choice(ui.operation)) {
-    document.send(DoStep{*wanted});
+    document.send(DoStep{*wanted, active_key(ui.clay)});
     if (std::holds_alternative<Hollow>(*wanted)) ui.operation.drains.clear();
     ui.panels.is_operations_open = false;
   }

@@ -10,6 +10,8 @@
 
 #include <imgui.h>
 
+#include "argil/engine/sculpture.h"
+
 #include "base/text.h"
 #include "commands/command.h"
 #include "commands/import_choice.h"
@@ -225,6 +227,9 @@ void draw_detail(ImportChoice& choice, const MeshOffer& offer) {
 std::string obstacle(const ImportChoice& choice, const MeshOffer& offer) {
   const Vec3 size = size_of(choice, offer);
   const double side = std::max({size.x, size.y, size.z});
+  if (choice.keeps_parts && offer.parts > Sculpture::kMostPieces) {
+    return "At most 1000 parts can be pieces: choose one piece for all.";
+  }
   if (side >= kLeastImportMm && side <= kMostImportMm) return "";
   return "The largest side must be 0.01 to 10 000 mm: choose another unit or size.";
 }

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <iterator>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <imgui.h>
@@ -40,15 +44,13 @@ ImVec4 shown(const Rgb8& color) {
 }
 
 std::optional<Rgb8> color_of(const std::string& text) {
-  std::array<unsigned, 3> parts{};
-  char rest = '\0';
-  const char* digits = text.c_str() + (text.starts_with('#') ? 1 : 0);
-  const int read = std::sscanf(digits, "%2x%2x%2x%c", &parts[0], &parts[1], &parts[2],
-                               &rest);  // NOLINT(cert-err34-c)
-  if (read != 3) return std::nullopt;
-  Rgb8 color{};
-  for (std::size_t n = 0; n < 3; ++n) color[n] = static_cast<std::uint8_t>(parts[n]);
-  return color;
+  const std::string_view digits = std::string_view(text).substr(text.starts_with('#') ? 1 : 0);
+  std::uint32_t number = 0;
+  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  const bool is_whole = read.ec == std::errc() && read.ptr == digits.data() + digits.size();
+  if (digits.size() != 6 || !is_whole) return std::nullopt;
+  return Rgb8{static_cast<std::uint8_t>(number >> 16U), static_cast<std::uint8_t>(number >> 8U),
+              static_cast<std::uint8_t>(number)};
 }
 
 /// A square to click on, with a picture drawn about its middle.
@@ -227,15 +229,17 @@ void draw_changes(UiState& ui, DocumentThread& document) {
   const std::string other = other_piece(ui);
   if (other.empty()) return;
   std::vector<std::string> names;
+  std::vector<PieceKey> keys;
   int at = 0;
   for (const PieceState& piece : ui.clay.pieces->pieces) {
     if (piece.key == ui.clay.pieces->active_piece().key) continue;
     if (piece.look.name == other) at = static_cast<int>(names.size());
     names.push_back(piece.look.name);
+    keys.push_back(piece.key);
   }
   ImGui::Separator();
   ImGui::SetNextItemWidth(110.0F * unit());
-  if (pick_one("With", at, names)) ui.pieces.other = names[static_cast<std::size_t>(at)];
+  if (pick_one("With", at, names)) ui.pieces.other = keys[static_cast<std::size_t>(at)];
   ImGui::SameLine();
   check("Keep it", ui.pieces.keeps_other);
   command_button(Command::piece_unite, "Merge##piece", ui, document);
@@ -252,7 +256,9 @@ bool draw_numbers(const std::array<const char*, 3>& labels, Vec3& values, double
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) ImGui::SameLine();
     ImGui::SetNextItemWidth(80.0F * unit());
-    number(labels[axis], values[axis], -most, most, format);
+    // What is not typed stays as it is, also beyond what can be typed.
+    double value = values[axis];
+    if (number(labels[axis], value, -most, most, format)) values[axis] = value;
     is_typing = is_typing || ImGui::IsItemActive();
     is_entered = is_entered || ImGui::IsItemDeactivatedAfterEdit();
   }
@@ -262,7 +268,7 @@ bool draw_numbers(const std::array<const char*, 3>& labels, Vec3& values, double
 /// Where the active piece stands. A number that is typed is kept as it is: the turns of an
 /// orientation are not the only ones that lead to it.
 void draw_place(UiState& ui, DocumentThread& document) {
-  constexpr double kMostMm = 10000.0;
+  constexpr double kMostMm = 1e6;  // where a piece can stand (Sculpture)
   constexpr double kMostDeg = 360.0;
   PieceChoice& choices = ui.pieces;
   const Placement now = shown_placement(ui);

@@ -51,7 +51,7 @@ void draw_hollow(UiState& ui, DocumentThread& document) {
   ImGui::SameLine();
   ImGui::TextDisabled("%d", static_cast<int>(choice.drains.size()));
   if (button("Hollow it")) {
-    document.send(DoStep{Hollow{choice.wall_mm, choice.drains}});
+    document.send(DoStep{Hollow{choice.wall_mm, choice.drains}, active_key(ui.clay)});
     choice.drains.clear();
   }
 }
