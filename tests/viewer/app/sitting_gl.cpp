@@ -232,8 +232,8 @@ void SittingGl::expect_pieces_in_blender() const {
     const auto box = shown.find(saved.look(n).name + "/surface_1");
     ASSERT_NE(box, shown.end()) << saved.look(n).name;
     const Box3 wanted = test::placed_surface(saved, n);
-    EXPECT_LT(length(box->second.min - wanted.min), 0.6) << saved.look(n).name;
-    EXPECT_LT(length(box->second.max - wanted.max), 0.6) << saved.look(n).name;
+    EXPECT_LT(length(box->second.min - wanted.min), 0.2) << saved.look(n).name;
+    EXPECT_LT(length(box->second.max - wanted.max), 0.2) << saved.look(n).name;
   }
 }
 
