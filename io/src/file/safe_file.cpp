@@ -25,6 +25,7 @@
 #include "argil/core/no_throw.h"
 
 #include "file/file_bytes.h"
+#include "file/temporary_name.h"
 
 namespace argil::io {
 namespace {
@@ -83,16 +84,6 @@ class Temporary {
   EndSlot end_slot_;
   bool renamed_ = false;
 };
-
-/// A name in the folder of `target` that no other save uses; the ending stays, since writers choose
-/// their format by it, and the leading dot keeps it out of listings.
-fs::path temporary_name(const fs::path& target) {
-  static std::atomic<unsigned> counter{0};
-  constexpr std::size_t kLongestStem = 100;  // NAME_MAX is 255
-  const std::string stem = target.stem().string().substr(0, kLongestStem);
-  const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  return target.parent_path() / ("." + stem + "." + unique + target.extension().string());
-}
 
 /// Creates the empty file with the mode of the file it will replace. 0 or the error.
 int create_like(const fs::path& path, const fs::path& target) {

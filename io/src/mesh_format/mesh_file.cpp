@@ -9,6 +9,7 @@
 #include "argil/io/safe_file.h"
 
 #include "file/file_bytes.h"
+#include "file/temporary_name.h"
 #include "mesh_format/3mf_write.h"
 #include "mesh_format/mesh_frame_read.h"
 #include "mesh_format/mesh_write.h"
@@ -58,7 +59,7 @@ Result<void> write_assembly(const std::filesystem::path& file, const Assembly& a
                                              ": the format has no place for parts of a name; "
                                              "write a .3mf, or one mesh"};
     }
-    ThreemfModel model{file.stem().string(), {}, {}, &assembly.items};
+    ThreemfModel model{title_of(file), {}, {}, &assembly.items};
     for (const AssemblyObject& object : assembly.objects) {
       if (Result<void> fits = check_writable(object.mesh); !fits) return fits;
       model.objects.push_back({object.name, object.color, &object.mesh});

@@ -56,6 +56,14 @@ void draw_hollow(UiState& ui, DocumentThread& document) {
   }
 }
 
+/// Which of several pieces it was: an export of all shows the verdict on one.
+void draw_judged_piece(const UiState& ui) {
+  if (!ui.clay.pieces || ui.clay.pieces->pieces.size() < 2) return;
+  for (const PieceState& piece : ui.clay.pieces->pieces) {
+    if (piece.key == ui.report->piece) ImGui::TextUnformatted(piece.look.name.c_str());
+  }
+}
+
 /// What the last check or export found.
 void draw_verdict(UiState& ui) {
   assert(ui.report != nullptr);
@@ -64,6 +72,7 @@ void draw_verdict(UiState& ui) {
   if (ui.report->changes != ui.clay.changes) {
     ImGui::TextDisabled("as it was before the last change");
   }
+  draw_judged_piece(ui);
   ImGui::Text("Printable: %s", yes_no(verdict.printable));
   ImGui::Text("Closed: %s, manifold: %s, outward: %s", yes_no(verdict.closed),
               yes_no(verdict.manifold), yes_no(verdict.outward));
