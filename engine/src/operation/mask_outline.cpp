@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A mask by an outline in a picture. Notation: points of the picture are x, y as PicturePoint; a
-// leaf is one of the mask, of 8^3 nodes. A leaf's box in the picture tells which edges of the
-// outline can matter to its nodes: those that come near, and those that a line to the right meets.
+// leaf is one of the mask, of 8^3 nodes. Blocks of leaves are halved, and each keeps what of the
+// outline matters to its box in the picture (outline_parts.h).
 #include "argil/engine/mask_outline.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/core/no_throw.h"
@@ -22,13 +23,18 @@
 #include "field/mask.h"
 #include "field/mask_reach.h"
 #include "field/parallel.h"
+#include "operation/outline_parts.h"
 #include "operation/solid.h"
 
 namespace argil {
 namespace {
 
-constexpr double kFadeCosine = 0.1;   // of the surface's normal with the line of sight
-constexpr double kMostPicture = 1e6;  // no point lies farther from the picture's middle
+constexpr double kFadeCosine = 0.1;  // of the surface's normal with the line of sight
+constexpr int kBlockLeaves = 4;      // along the side of a block that is halved no more
+
+double largest_part(const Quat& q) {
+  return std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+}
 
 /// A point as the picture shows it.
 struct Seen {
@@ -38,13 +44,20 @@ struct Seen {
   bool is_before_eye = true;
 };
 
+/// Unit; also of what is so short or long that no double holds its square.
+Quat unit_of(const Quat& q) {
+  const double largest = largest_part(q);
+  if (largest > 1e-100 && largest < 1e100) return normalized(q);
+  return normalized(Quat{q.w / largest, q.x / largest, q.y / largest, q.z / largest});
+}
+
 class OutlineView {
  public:
   explicit OutlineView(const ViewFrame& view)
       : eye_(view.eye_mm),
-        right_(rotate(normalized(view.orientation), {1.0, 0.0, 0.0})),
-        up_(rotate(normalized(view.orientation), {0.0, 1.0, 0.0})),
-        back_(rotate(normalized(view.orientation), {0.0, 0.0, 1.0})),
+        right_(rotate(unit_of(view.orientation), {1.0, 0.0, 0.0})),
+        up_(rotate(unit_of(view.orientation), {0.0, 1.0, 0.0})),
+        back_(rotate(unit_of(view.orientation), {0.0, 0.0, 1.0})),
         is_parallel_(view.is_parallel) {}
 
   Seen seen(const Vec3& p) const {
@@ -57,6 +70,11 @@ class OutlineView {
 
   /// From a point to the viewer, unit.
   Vec3 to_eye(const Vec3& p) const { return is_parallel_ ? back_ : normalized(eye_ - p); }
+
+  /// Whether all points within `radius_mm` of one lie behind the eye.
+  bool is_behind(const Vec3& middle, double radius_mm) const {
+    return !is_parallel_ && dot(middle - eye_, back_) > radius_mm;
+  }
 
   /// How far, in the picture, points within `radius_mm` of one may lie from it; negative where some
   /// may lie behind the eye. `nearest_mm` becomes the least of their mm_per_unit.
@@ -74,100 +92,25 @@ class OutlineView {
   bool is_parallel_;
 };
 
-struct OutlineEdge {
-  PicturePoint a{};
-  PicturePoint b{};
-};
-
-/// Those of one loop that can matter within a box of the picture.
-struct LoopPart {
-  std::vector<OutlineEdge> near;   ///< come into the box
-  std::vector<OutlineEdge> right;  ///< may be met by a line from it to the right
-};
-
-struct PictureBox {
-  double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0;
-};
-
-double distance_to(const OutlineEdge& edge, double x, double y) {
-  const double ux = edge.b[0] - edge.a[0];
-  const double uy = edge.b[1] - edge.a[1];
-  const double vx = x - edge.a[0];
-  const double vy = y - edge.a[1];
-  const double square = ux * ux + uy * uy;
-  const double t = square > 0.0 ? std::clamp((vx * ux + vy * uy) / square, 0.0, 1.0) : 0.0;
-  const double dx = vx - t * ux;
-  const double dy = vy - t * uy;
-  return std::sqrt(dx * dx + dy * dy);
-}
-
-/// Half open, so that a corner on the line counts once.
-bool is_met_to_the_right(const OutlineEdge& edge, double x, double y) {
-  if ((edge.a[1] > y) == (edge.b[1] > y)) return false;
-  const double t = (y - edge.a[1]) / (edge.b[1] - edge.a[1]);
-  return edge.a[0] + t * (edge.b[0] - edge.a[0]) > x;
-}
-
-class OutlineShape {
- public:
-  explicit OutlineShape(const std::vector<std::vector<PicturePoint>>& loops) {
-    for (const auto& loop : loops) {
-      auto& edges = loops_.emplace_back();
-      for (std::size_t n = 0; n < loop.size(); ++n) {
-        edges.push_back({loop[n], loop[(n + 1) % loop.size()]});
-      }
-    }
-  }
-
-  std::vector<LoopPart> parts_in(const PictureBox& box) const {
-    std::vector<LoopPart> parts(loops_.size());
-    for (std::size_t n = 0; n < loops_.size(); ++n) {
-      for (const OutlineEdge& edge : loops_[n]) {
-        const auto [low_x, high_x] = std::minmax(edge.a[0], edge.b[0]);
-        const auto [low_y, high_y] = std::minmax(edge.a[1], edge.b[1]);
-        if (high_x < box.x0 || high_y < box.y0 || low_y > box.y1) continue;
-        parts[n].right.push_back(edge);
-        if (low_x <= box.x1) parts[n].near.push_back(edge);
-      }
-    }
-    return parts;
-  }
-
-  std::vector<LoopPart> all() const {
-    constexpr double kAll = 2.0 * kMostPicture;
-    return parts_in({-kAll, kAll, -kAll, kAll});
-  }
-
- private:
-  std::vector<std::vector<OutlineEdge>> loops_;
-};
-
-/// Whether any edge comes into the box: else all points in it are on one side.
-bool has_border(const std::vector<LoopPart>& parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [](const LoopPart& part) { return !part.near.empty(); });
-}
-
-/// How deep a point of the box lies within one of the loops, as far as an edge is near; outside it
-/// is negative.
-double depth_within(const std::vector<LoopPart>& parts, double x, double y) {
-  constexpr double kFar = 4.0 * kMostPicture;
-  double depth = -kFar;
-  for (const LoopPart& part : parts) {
-    bool is_inside = false;
-    for (const OutlineEdge& edge : part.right) is_inside ^= is_met_to_the_right(edge, x, y);
-    double nearest = kFar;
-    for (const OutlineEdge& edge : part.near) nearest = std::min(nearest, distance_to(edge, x, y));
-    depth = std::max(depth, is_inside ? nearest : -nearest);
-  }
-  return depth;
-}
-
 /// What becomes of a leaf of the mask.
 struct LeafResult {
   std::unique_ptr<LeafValues> values;  ///< node by node
   float value = 0.0F;                  ///< without them, of all
   bool is_changed = false;
+};
+
+/// Leaves of a slab, and what of the outline can matter to them.
+struct OutlineBlock {
+  Coord origin;
+  int columns = 0;  ///< leaves along y
+  int rows = 0;     ///< along z
+  std::shared_ptr<const LoopParts> parts;
+};
+
+/// One of its leaves.
+struct OutlineLeaf {
+  Coord origin;
+  std::shared_ptr<const LoopParts> parts;
 };
 
 class OutlinePainter {
@@ -177,17 +120,42 @@ class OutlinePainter {
         stack_(levels_of(clay)),
         before_(before),
         view_(outline.view),
-        shape_(outline.loops),
+        all_(std::make_shared<const LoopParts>(parts_of(outline.loops))),
+        all_box_(box_of(*all_)),
         frees_(outline.frees),
         front_only_(outline.front_only) {}
 
-  LeafResult leaf(const Coord& origin) const;
+  /// The leaves of a slab that may change.
+  std::vector<OutlineLeaf> leaves_of(const Coord& origin, int columns, int rows) const {
+    std::vector<OutlineLeaf> leaves;
+    add_block({origin, columns, rows, all_}, leaves);
+    return leaves;
+  }
+  LeafResult leaf(const OutlineLeaf& at) const;
 
  private:
+  void add_block(OutlineBlock block, std::vector<OutlineLeaf>& leaves) const;
+  /// A ball around leaves.
+  struct Ball {
+    Vec3 middle;
+    double radius_mm = 0.0;
+  };
+  Ball ball_around(const Coord& origin, int columns, int rows) const;
+  /// What of `parts` matters to points of the ball; all where some lie behind the eye, of which
+  /// `is_seen` tells.
+  LoopParts parts_at(const LoopParts& parts, const Ball& ball, bool& is_seen) const;
+  /// Whether they all lie outside.
+  bool is_outside(const LoopParts& parts, const Ball& ball) const {
+    const Seen at = view_.seen(ball.middle);
+    return !has_border(parts) && depth_within(parts, at.x, at.y) < 0.0;
+  }
   /// 0 outside to 1 within, over a node's spacing.
-  double cover(const std::vector<LoopPart>& parts, const Vec3& p) const {
+  double cover(const LoopParts& parts, const Vec3& p) const {
     const Seen at = view_.seen(p);
     if (!at.is_before_eye) return 0.0;
+    const double margin = before_.voxel_mm() / at.mm_per_unit;
+    if (at.x < all_box_.x0 - margin || at.x > all_box_.x1 + margin) return 0.0;
+    if (at.y < all_box_.y0 - margin || at.y > all_box_.y1 + margin) return 0.0;
     const double depth_mm = at.mm_per_unit * depth_within(parts, at.x, at.y);
     return std::clamp(0.5 + depth_mm / before_.voxel_mm(), 0.0, 1.0);
   }
@@ -200,18 +168,66 @@ class OutlinePainter {
     const Vec3 normal = normalized(field.value(p).gradient);
     return std::clamp(dot(normal, view_.to_eye(p)) / kFadeCosine, 0.0, 1.0);
   }
-  void paint_nodes(const Coord& origin, const std::vector<LoopPart>& parts, LeafResult& out) const;
+  void paint_nodes(const Coord& origin, const LoopParts& parts, LeafResult& out) const;
 
   const Clay& clay_;
   const LevelStack& stack_;
   const Mask& before_;
   OutlineView view_;
-  OutlineShape shape_;
+  std::shared_ptr<const LoopParts> all_;
+  PictureBox all_box_;
   bool frees_;
   bool front_only_;
 };
 
-void OutlinePainter::paint_nodes(const Coord& origin, const std::vector<LoopPart>& parts,
+OutlinePainter::Ball OutlinePainter::ball_around(const Coord& origin, int columns, int rows) const {
+  const double voxel = before_.voxel_mm();
+  const Vec3 half =
+      0.5 * voxel * Vec3{kLeafSide - 1.0, kLeafSide * columns - 1.0, kLeafSide * rows - 1.0};
+  return {node_mm(origin, voxel) + half, length(half)};
+}
+
+LoopParts OutlinePainter::parts_at(const LoopParts& parts, const Ball& ball, bool& is_seen) const {
+  const Seen at = view_.seen(ball.middle);
+  double nearest_mm = 1.0;
+  const double reach = view_.reach(at, ball.radius_mm, nearest_mm);
+  is_seen = reach >= 0.0;
+  if (!is_seen) return parts;
+  const double most = reach + before_.voxel_mm() / nearest_mm;
+  return parts_in(parts, {at.x - most, at.x + most, at.y - most, at.y + most});
+}
+
+void OutlinePainter::add_block(OutlineBlock block, std::vector<OutlineLeaf>& leaves) const {
+  const Ball ball = ball_around(block.origin, block.columns, block.rows);
+  if (view_.is_behind(ball.middle, ball.radius_mm)) return;
+  bool is_seen = false;
+  LoopParts parts = parts_at(*block.parts, ball, is_seen);
+  if (is_seen && is_outside(parts, ball)) return;
+  if (is_seen) block.parts = std::make_shared<const LoopParts>(std::move(parts));
+  if (std::max(block.columns, block.rows) > kBlockLeaves) {
+    OutlineBlock other = block;
+    if (block.columns > block.rows) {
+      block.columns /= 2;
+      other.columns -= block.columns;
+      other.origin.y() += kLeafSide * block.columns;
+    } else {
+      block.rows /= 2;
+      other.rows -= block.rows;
+      other.origin.z() += kLeafSide * block.rows;
+    }
+    add_block(std::move(block), leaves);
+    add_block(std::move(other), leaves);
+    return;
+  }
+  for (int column = 0; column < block.columns; ++column) {
+    for (int row = 0; row < block.rows; ++row) {
+      leaves.push_back(
+          {block.origin.offsetBy(0, kLeafSide * column, kLeafSide * row), block.parts});
+    }
+  }
+}
+
+void OutlinePainter::paint_nodes(const Coord& origin, const LoopParts& parts,
                                  LeafResult& out) const {
   FieldSampler field(clay_);
   const float* was = before_.leaf(origin);
@@ -229,33 +245,24 @@ void OutlinePainter::paint_nodes(const Coord& origin, const std::vector<LoopPart
 }
 
 /// Where no border passes, and away from the surface, one value does for all nodes.
-LeafResult OutlinePainter::leaf(const Coord& origin) const {
+LeafResult OutlinePainter::leaf(const OutlineLeaf& at) const {
   LeafResult out;
-  const double voxel = before_.voxel_mm();
-  const double half = 0.5 * (kLeafSide - 1) * voxel;
-  const Vec3 middle = node_mm(origin, voxel) + Vec3{half, half, half};
-  const Seen at = view_.seen(middle);
-  double nearest_mm = 1.0;
-  const double reach = view_.reach(at, half * std::sqrt(3.0), nearest_mm);
-  std::vector<LoopPart> parts;
-  if (reach < 0.0) {
-    parts = shape_.all();
-  } else {
-    const double most = reach + voxel / nearest_mm;
-    parts = shape_.parts_in({at.x - most, at.x + most, at.y - most, at.y + most});
-    if (!has_border(parts) && depth_within(parts, at.x, at.y) < 0.0) return out;
-  }
+  const Coord& origin = at.origin;
   const bool is_near = is_near_surface(stack_, origin);
-  const float* was = before_.leaf(origin);
   if (!is_near) {
     const Coord center = origin.offsetBy(kLeafSide / 2);
     const bool is_air = stack_.node_value(0, center << 1) > 0.0F;
     if (is_air || front_only_) return out;
   }
-  const bool is_uniform = reach >= 0.0 && !has_border(parts) && !front_only_;
-  if (was == nullptr && (is_uniform || !is_near)) {
+  const Ball ball = ball_around(origin, 1, 1);
+  if (view_.is_behind(ball.middle, ball.radius_mm)) return out;
+  bool is_seen = false;
+  const LoopParts parts = parts_at(*at.parts, ball, is_seen);
+  if (is_seen && is_outside(parts, ball)) return out;
+  const bool is_uniform = is_seen && !has_border(parts) && !front_only_;
+  if (before_.leaf(origin) == nullptr && (is_uniform || !is_near)) {
     const float former = before_.constant(origin);
-    out.value = painted(former, is_uniform ? 1.0 : cover(parts, middle));
+    out.value = painted(former, is_uniform ? 1.0 : cover(parts, ball.middle));
     out.is_changed = out.value != former;
     return out;
   }
@@ -264,7 +271,7 @@ LeafResult OutlinePainter::leaf(const Coord& origin) const {
 }
 
 /// The leaves of the mask that the clay, its inside and what is near it may take.
-openvdb::CoordBBox leaves_of(const Clay& clay, double voxel_mm) {
+openvdb::CoordBBox nodes_to_mask(const Clay& clay, double voxel_mm) {
   Box3 box = clay.bounds_mm();
   const double margin = kLeafSide * voxel_mm;
   box.min -= Vec3{margin, margin, margin};
@@ -280,22 +287,22 @@ std::shared_ptr<Mask> outlined(const Clay& clay, const MaskOutline& outline,
   if (before.bytes() > free_bytes) throw OverLimit(before.bytes());
   std::shared_ptr<Mask> mask = before.copy();
   const OutlinePainter painter(clay, before, outline);
-  const openvdb::CoordBBox nodes = leaves_of(clay, before.voxel_mm());
-  const int first = nodes.min().x() & ~(kLeafSide - 1);
-  for (int x = first; x <= nodes.max().x(); x += kLeafSide) {
-    pace.at(static_cast<double>(x - first) / std::max(1, nodes.max().x() - first));
-    std::vector<Coord> origins;
-    const openvdb::CoordBBox slab(Coord(x, nodes.min().y(), nodes.min().z()),
-                                  Coord(x, nodes.max().y(), nodes.max().z()));
-    for_each_leaf_origin(slab, [&](const Coord& origin) { origins.push_back(origin); });
-    std::vector<LeafResult> results(origins.size());
-    for_each_leaf(origins.size(), [&](std::size_t n) { results[n] = painter.leaf(origins[n]); });
-    for (std::size_t n = 0; n < origins.size(); ++n) {
+  const openvdb::CoordBBox nodes = nodes_to_mask(clay, before.voxel_mm());
+  const Coord low = leaf_origin(nodes.min());
+  const Coord high = leaf_origin(nodes.max());
+  const int columns = (high.y() - low.y()) / kLeafSide + 1;
+  const int rows = (high.z() - low.z()) / kLeafSide + 1;
+  for (int x = low.x(); x <= high.x(); x += kLeafSide) {
+    pace.at(static_cast<double>(x - low.x()) / std::max(1, high.x() - low.x()));
+    const auto leaves = painter.leaves_of(Coord(x, low.y(), low.z()), columns, rows);
+    std::vector<LeafResult> results(leaves.size());
+    for_each_leaf(leaves.size(), [&](std::size_t n) { results[n] = painter.leaf(leaves[n]); });
+    for (std::size_t n = 0; n < leaves.size(); ++n) {
       if (!results[n].is_changed) continue;
       if (results[n].values != nullptr) {
-        mask->put(origins[n], *results[n].values);
+        mask->put(leaves[n].origin, *results[n].values);
       } else {
-        mask->put(origins[n], results[n].value);
+        mask->put(leaves[n].origin, results[n].value);
       }
     }
     if (mask->bytes() > free_bytes) throw OverLimit(mask->bytes());
@@ -313,8 +320,9 @@ Result<void> validate_outline(const MaskOutline& outline) {
                      number_text(kMaxReachMm) + " mm");
   }
   const Quat& q = outline.view.orientation;
-  const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-  if (!(std::isfinite(square) && square > 0.0)) {
+  const bool is_finite =
+      std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
+  if (!(is_finite && largest_part(q) > 0.0)) {
     return bad_input(
         "orientation of the outline has no direction; give a quaternion of any length but zero");
   }

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "argil/core/free_name.h"
 #include "argil/core/hash.h"
 
 #include "sculpture/sculpture_state.h"
@@ -110,15 +111,8 @@ const Clay& Sculpture::clay() const noexcept { return *state_->active_piece().cl
 Clay Sculpture::take_clay() && { return std::move(*state_->active_piece().clay); }
 
 std::string Sculpture::free_name(std::string_view base) const {
-  std::string name(base);
-  for (int n = 2; find(name); ++n) {
-    const std::string number = " " + std::to_string(n);
-    // Room for the number, without cutting a letter of several bytes in two.
-    std::size_t kept = std::min(base.size(), kMostBytesOfAName - number.size());
-    while (kept > 0 && kept < base.size() && (base[kept] & 0xC0) == 0x80) --kept;
-    name = std::string(base.substr(0, kept)) + number;
-  }
-  return name;
+  return argil::free_name(base, kMostBytesOfAName,
+                          [this](const std::string& name) { return find(name).has_value(); });
 }
 
 Result<void> Sculpture::set_limits(const ClayLimits& limits) {

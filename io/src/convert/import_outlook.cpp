@@ -14,11 +14,19 @@
 #include <cstdint>
 #include <utility>
 
+#include "argil/core/pace.h"
+#include "argil/mesh/edges.h"
+#include "argil/mesh/point_welder.h"
+#include "argil/mesh/triangle_geometry.h"
+
+#include "convert/surface_samples.h"
+
 namespace argil::io {
 namespace {
 
-constexpr double kFinestCells = 512.0;  // along the longest side
-constexpr double kMostSamples = 2e6;    // of the surface
+constexpr double kFinestCells = 512.0;     // along the longest side
+constexpr double kMostSamples = 2e6;       // of the surface
+constexpr double kMostSamplesAlong = 2e7;  // where triangles are thin
 constexpr std::size_t kMostKept = 4'000'000;
 constexpr int kCellsOfALeaf = 2;            // 4 along each side: two halvings of Morton's order
 constexpr double kVerticesPerSquare = 1.5;  // edges of a lattice that a plane cuts, on average
@@ -56,16 +64,9 @@ std::uint64_t spread(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249U;
 }
 
-/// An edge, named by where its ends are, so that seams of a file do not matter.
-struct Edge {
-  std::array<Vec3, 2> ends;
-  Vec3 normal;  ///< of the triangle, unit
-  Vec3 apex;    ///< its third corner
-};
-
-bool is_before(const Vec3& a, const Vec3& b) {
-  if (a.x != b.x) return a.x < b.x;
-  return a.y != b.y ? a.y < b.y : a.z < b.z;
+/// Unit, or zero of what has no area.
+Vec3 normal_of(const TriangleMesh& mesh, std::size_t triangle) {
+  return normalized(mesh::area_normal(mesh::corners_of(mesh, triangle)));
 }
 
 /// Collects samples as cells.
@@ -78,9 +79,17 @@ class CellGrid {
       return spread(static_cast<std::uint64_t>(std::clamp(x / cell_, 0.0, 2e6)));
     };
     const Vec3 from = at - low_;
-    cells_.push_back({index(from.x) << 2 | index(from.y) << 1 | index(from.z), turn, area});
-    // Far more than cells can be, so that what was joined makes room.
-    if (cells_.size() > kMostKept) join();
+    const std::uint64_t key = index(from.x) << 2 | index(from.y) << 1 | index(from.z);
+    if (!cells_.empty() && cells_.back().key == key) {
+      cells_.back().turn += turn;
+      cells_.back().area += area;
+      return;
+    }
+    cells_.push_back({key, turn, area});
+    if (cells_.size() <= most_kept_) return;
+    join();
+    // As many again before the next, so that all joins together cost little more than the last.
+    most_kept_ = std::max(kMostKept, 2 * cells_.size());
   }
 
   /// Cells, each once, in the order of their keys.
@@ -107,55 +116,80 @@ class CellGrid {
 
   Vec3 low_;
   double cell_;
+  std::size_t most_kept_ = kMostKept;
   std::vector<Cell> cells_;
 };
 
-/// Points spread over a triangle, at most a cell's half apart, each with its share of the area.
-void add_area(const std::array<Vec3, 3>& t, double cell, CellGrid& grid) {
-  const Vec3 u = t[1] - t[0];
-  const Vec3 v = t[2] - t[0];
-  const double longest = std::max({length(u), length(v), length(t[2] - t[1])});
-  const int n = std::max(1, static_cast<int>(std::ceil(1.5 * longest / cell)));
-  const double share = 0.5 * length(cross(u, v)) / (static_cast<double>(n) * n);
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; i + j < n; ++j) {
-      grid.add(t[0] + ((i + 1.0 / 3) / n) * u + ((j + 1.0 / 3) / n) * v, 0.0, share);
-      if (i + j + 1 == n) continue;
-      grid.add(t[0] + ((i + 2.0 / 3) / n) * u + ((j + 2.0 / 3) / n) * v, 0.0, share);
-    }
+/// Without what has no area; the corners where the positions are, so that seams of a file do not
+/// matter.
+TriangleMesh welded(const TriangleMesh& mesh, const Pace& pace) {
+  TriangleMesh out;
+  mesh::PointWelder welder(out.positions);
+  std::vector<std::uint32_t> names;
+  names.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) names.push_back(welder.add(p));
+  pace.at(0.5);
+  out.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    out.triangles.push_back({names[t[0]], names[t[1]], names[t[2]]});
+    if (normal_of(out, out.triangles.size() - 1) == Vec3{}) out.triangles.pop_back();
   }
+  return out;
 }
 
 /// The turn across an edge between two triangles, along its length.
-void add_turn(const Edge& a, const Edge& b, double cell, CellGrid& grid) {
-  const Vec3 along = a.ends[1] - a.ends[0];
-  const double sine = length(cross(a.normal, b.normal));
-  const double angle = std::atan2(sine, dot(a.normal, b.normal));
-  const double sign = dot(b.apex - a.ends[0], a.normal) < 0.0 ? 1.0 : -1.0;
+void add_turn(const TriangleMesh& mesh, const mesh::EdgeTable& edges, mesh::HalfEdge a,
+              mesh::HalfEdge b, double cell, CellGrid& grid) {
+  const Vec3& from = mesh.positions[edges.from(a)];
+  const Vec3 along = mesh.positions[edges.to(a)] - from;
+  const Vec3 normal = normal_of(mesh, mesh::triangle_of(a));
+  const Vec3 other = normal_of(mesh, mesh::triangle_of(b));
+  const double angle = std::atan2(length(cross(normal, other)), dot(normal, other));
+  const Vec3& apex = mesh.positions[edges.to(mesh::next_in_triangle(b))];
+  const double sign = dot(apex - from, normal) < 0.0 ? 1.0 : -1.0;
   const double turn = sign * angle * length(along);
   if (turn == 0.0) return;
-  const int n = std::max(1, static_cast<int>(std::ceil(1.5 * length(along) / cell)));
-  for (int i = 0; i < n; ++i) grid.add(a.ends[0] + ((i + 0.5) / n) * along, turn / n, 0.0);
+  const int n = samples_along(length(along), cell);
+  for (int i = 0; i < n; ++i) grid.add(from + ((i + 0.5) / n) * along, turn / n, 0.0);
 }
 
-std::vector<Edge> edges_of(const TriangleMesh& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
+/// Small enough for every detail, unless the surface or its edges are too long for that.
+double finest_cell(const TriangleMesh& mesh, double side, double area) {
+  double along = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const std::array<Vec3, 3> p{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-    const Vec3 normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
-    if (normal == Vec3{}) continue;
-    for (std::size_t n = 0; n < 3; ++n) {
-      Edge edge{{p[n], p[(n + 1) % 3]}, normal, p[(n + 2) % 3]};
-      if (is_before(edge.ends[1], edge.ends[0])) std::swap(edge.ends[0], edge.ends[1]);
-      edges.push_back(edge);
-    }
+    along += mesh::longest_side(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.ends[0] == b.ends[0] ? is_before(a.ends[1], b.ends[1])
-                                  : is_before(a.ends[0], b.ends[0]);
+  return std::max(
+      {side / kFinestCells, std::sqrt(8.0 * area / kMostSamples), along / kMostSamplesAlong});
+}
+
+/// Some of the steps are told to `pace`, which may end the work there.
+template <class Work>
+void for_each_paced(std::size_t count, const Pace& pace, const Work& work) {
+  constexpr std::size_t kStep = 1024;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (n % kStep == 0) pace.at(static_cast<double>(n) / static_cast<double>(count));
+    work(n);
+  }
+}
+
+/// What the mesh has in cells of space, in the order of their keys.
+std::vector<Cell> cells_of(const TriangleMesh& given, const Vec3& low, double cell,
+                           const Pace& pace) {
+  CellGrid grid(low, cell);
+  const TriangleMesh mesh = welded(given, pace.part(0.0, 0.3));
+  for_each_paced(mesh.triangles.size(), pace.part(0.3, 0.6), [&](std::size_t n) {
+    for_each_sample(mesh::corners_of(mesh, n), cell,
+                    [&](const Vec3& at, double area) { grid.add(at, 0.0, area); });
   });
-  return edges;
+  const mesh::EdgeTable edges(mesh);
+  for_each_paced(edges.size(), pace.part(0.7, 1.0), [&](std::size_t n) {
+    const auto uses = edges.uses(n);
+    for (std::size_t k = 1; k < uses.size(); ++k) {
+      add_turn(mesh, edges, uses[k - 1], uses[k], cell, grid);
+    }
+  });
+  return grid.take();
 }
 
 /// Cells twice as large.
@@ -201,7 +235,8 @@ std::size_t count_above(const std::vector<double>& descending, double value) {
 
 }  // namespace
 
-ImportOutlook::ImportOutlook(const TriangleMesh& mesh) : area_(surface_area(mesh)) {
+ImportOutlook::ImportOutlook(const TriangleMesh& mesh, const Progress& progress)
+    : area_(surface_area(mesh)) {
   Box3 box;
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) box.include(mesh.positions[v]);
@@ -211,17 +246,11 @@ ImportOutlook::ImportOutlook(const TriangleMesh& mesh) : area_(surface_area(mesh
   if (!(side_ > 0.0 && area_ > 0.0)) return;
   low_ = box.min / side_;
   high_ = box.max / side_;
-  const double cell = std::max(side_ / kFinestCells, std::sqrt(8.0 * area_ / kMostSamples));
+  const double cell = finest_cell(mesh, side_, area_);
   cell_ = cell / side_;
-  CellGrid grid(box.min, cell);
-  for (const Triangle& t : mesh.triangles) {
-    add_area({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]}, cell, grid);
-  }
-  const std::vector<Edge> edges = edges_of(mesh);
-  for (std::size_t n = 0; n + 1 < edges.size(); ++n) {
-    if (edges[n].ends == edges[n + 1].ends) add_turn(edges[n], edges[n + 1], cell, grid);
-  }
-  for (std::vector<Cell> cells = grid.take(); cells.size() > 1; cells = doubled(cells)) {
+  const Pace pace(progress, "look at the mesh");
+  for (std::vector<Cell> cells = cells_of(mesh, box.min, cell, pace); cells.size() > 1;
+       cells = doubled(cells)) {
     Leaves& sorted = leaves_.emplace_back();
     double sum = 0.0;
     for (const BentLeaf& leaf : leaves_by_bend(cells)) {

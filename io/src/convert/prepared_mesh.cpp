@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "argil/core/free_name.h"
 #include "argil/core/no_throw.h"
 #include "argil/engine/import_estimate.h"
 #include "argil/engine/sculpture.h"
@@ -172,12 +173,8 @@ Result<PreparedParts> prepare_parts(ReadAssembly read, const std::filesystem::pa
 std::string piece_name(std::string name, std::size_t number, const std::set<std::string>& taken) {
   while (!name.empty() && !validate_look({.name = name})) name.pop_back();
   if (name.empty()) name = "Part " + std::to_string(number);
-  std::string free = name;
-  for (int n = 2; taken.contains(free); ++n) {
-    const std::string end = " " + std::to_string(n);
-    free = name.substr(0, Sculpture::kMostBytesOfAName - end.size()) + end;
-  }
-  return free;
+  return free_name(name, Sculpture::kMostBytesOfAName,
+                   [&](const std::string& free) { return taken.contains(free); });
 }
 
 }  // namespace

@@ -52,13 +52,7 @@ Result<void> write_mesh(const std::filesystem::path& file, const TriangleMesh& m
 Result<void> write_assembly(const std::filesystem::path& file, const Assembly& assembly,
                             const Progress& progress) {
   return no_throw(file.string(), [&]() -> Result<void> {
-    const Result<MeshFormat> format = mesh_format_of(file);
-    if (!format) return format.error();
-    if (format.value() != MeshFormat::threemf) {
-      return Error{ErrorKind::bad_input, file.string() +
-                                             ": the format has no place for parts of a name; "
-                                             "write a .3mf, or one mesh"};
-    }
+    if (auto holds = check_holds_parts(file); !holds) return holds;
     ThreemfModel model{title_of(file), {}, {}, &assembly.items};
     for (const AssemblyObject& object : assembly.objects) {
       if (Result<void> fits = check_writable(object.mesh); !fits) return fits;

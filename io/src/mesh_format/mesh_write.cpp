@@ -56,6 +56,15 @@ Result<MeshFormat> mesh_format_of(const std::filesystem::path& file) {
                                          ".glb or .3mf, or .gltf to read"};
 }
 
+Result<void> check_holds_parts(const std::filesystem::path& file) {
+  const Result<MeshFormat> format = mesh_format_of(file);
+  if (!format) return format.error();
+  if (format.value() == MeshFormat::threemf) return {};
+  return Error{ErrorKind::bad_input, file.string() +
+                                         ": the format has no place for parts of a name; write a "
+                                         ".3mf, or one mesh"};
+}
+
 Result<void> check_writable(const TriangleMesh& mesh) {
   constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();  // PLY's int
   if (mesh.triangles.empty())

@@ -20,6 +20,10 @@ enum class MeshFormat { obj, stl, ply, glb, threemf };
 /// Errors  bad_input naming the endings that are known.
 Result<MeshFormat> mesh_format_of(const std::filesystem::path& file);
 
+/// Whether the format can hold parts by their names.
+/// Errors  bad_input for an ending other than .3mf.
+Result<void> check_holds_parts(const std::filesystem::path& file);
+
 /// Whether any format can hold a mesh.
 /// Errors  bad_input for coordinates no float can hold, missing vertices, no or too many triangles.
 Result<void> check_writable(const TriangleMesh& mesh_mm);

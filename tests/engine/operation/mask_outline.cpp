@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -104,6 +106,122 @@ TEST(MaskOutlines, HoldWhatAPerspectiveShowsWithinThem) {
   }
   EXPECT_GT(front, 10);
   EXPECT_GT(back, front);
+}
+
+/// The first point of the ball that the eye sees at a place of a picture from the front.
+Vec3 seen_at(double eye_mm, double x, double z) {
+  const Vec3 eye{0.0, -eye_mm, 0.0};
+  const Vec3 along = normalized(Vec3{x, 1.0, z});
+  const double near = dot(along, eye);
+  return eye + (-near - std::sqrt(near * near - dot(eye, eye) + kBallMm * kBallMm)) * along;
+}
+
+TEST(MaskOutlines, AreHalfWayUpWhereABorderPassesAcrossTheNodes) {
+  Clay parallel = masked_ball();
+  const ViewFrame front = from_the_front(30.0, true);
+  ASSERT_TRUE(mask_within(parallel, {front, {{{-20, 20}, {20, -20}, {-20, -20}}}}).ok());
+  const auto on_diagonal = [&](double t, double beside) {
+    const double x = t + std::sqrt(0.5) * beside;
+    const double z = -t + std::sqrt(0.5) * beside;
+    return parallel.mask_at({x, -std::sqrt(kBallMm * kBallMm - x * x - z * z), z});
+  };
+  constexpr double kFiveVoxelsMm = 5.0 * kVoxelMm;
+  for (double t = -5.0; t < 5.0; t += 0.07) {
+    EXPECT_NEAR(on_diagonal(t, 0.0), 0.5, 0.06) << t;
+    EXPECT_EQ(on_diagonal(t, -kFiveVoxelsMm), 1.0) << t;
+    EXPECT_EQ(on_diagonal(t, kFiveVoxelsMm), 0.0) << t;
+  }
+  constexpr double kEyeMm = 25.0;
+  Clay perspective = masked_ball();
+  ASSERT_TRUE(mask_within(perspective, {from_the_front(kEyeMm, false),
+                                        {{{-1.0, -1.0}, {-0.1, -1.0}, {0.3, 1.0}, {-1.0, 1.0}}}})
+                  .ok());
+  for (double z = -0.3; z < 0.3; z += 0.004) {
+    const double x = 0.1 + 0.2 * z;
+    EXPECT_NEAR(perspective.mask_at(seen_at(kEyeMm, x, z)), 0.5, 0.06) << z;
+  }
+}
+
+/// What a place of the picture, a mask's node there seen as `mm_per_unit`, gets by the definition:
+/// parity of crossings and the distance to the nearest edge, of all of them.
+double covered_by_definition(const std::vector<std::vector<PicturePoint>>& loops, double x,
+                             double y, double mm_per_unit) {
+  double depth = -1e9;
+  for (const auto& loop : loops) {
+    bool is_inside = false;
+    double nearest = 1e9;
+    for (std::size_t n = 0; n < loop.size(); ++n) {
+      const PicturePoint& a = loop[n];
+      const PicturePoint& b = loop[(n + 1) % loop.size()];
+      const Vec3 side{b[0] - a[0], b[1] - a[1], 0.0};
+      const Vec3 from{x - a[0], y - a[1], 0.0};
+      const double t = std::clamp(dot(from, side) / dot(side, side), 0.0, 1.0);
+      nearest = std::min(nearest, length(from - t * side));
+      if ((a[1] > y) != (b[1] > y) && a[0] + (y - a[1]) / side.y * side.x > x) {
+        is_inside = !is_inside;
+      }
+    }
+    depth = std::max(depth, is_inside ? nearest : -nearest);
+  }
+  return std::clamp(0.5 + mm_per_unit * depth / (2.0 * kVoxelMm), 0.0, 1.0);
+}
+
+/// Stars whose points go back and forth across whatever box a block has in the picture.
+std::vector<std::vector<PicturePoint>> stars(double unit) {
+  std::vector<std::vector<PicturePoint>> loops;
+  for (const PicturePoint& middle : {PicturePoint{-2.0, 1.0}, {3.0, -2.0}, {4.0, 4.0}}) {
+    auto& loop = loops.emplace_back();
+    for (int n = 0; n < 400; ++n) {
+      const double turn = 2.0 * std::numbers::pi * n / 400.0;
+      const double r = n % 2 == 0 ? 5.5 : 1.0 + 0.01 * (n % 37);
+      loop.push_back(
+          {unit * (middle[0] + r * std::cos(turn)), unit * (middle[1] + r * std::sin(turn))});
+    }
+  }
+  return loops;
+}
+
+/// Counts the nodes near the surface that were compared.
+int expect_as_defined(const MaskOutline& outline, double eye_mm) {
+  Clay clay = masked_ball();
+  EXPECT_TRUE(mask_within(clay, outline).ok());
+  constexpr double kNodeMm = 2.0 * kVoxelMm;
+  int compared = 0;
+  for (int i = -25; i <= 25; ++i) {
+    for (int j = -25; j <= 25; ++j) {
+      for (int k = -25; k <= 25; ++k) {
+        const Vec3 p =
+            kNodeMm * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+        if (std::abs(length(p) - kBallMm) > 5.0 * kVoxelMm) continue;
+        const double depth = outline.view.is_parallel ? 1.0 : p.y + eye_mm;
+        const double expected =
+            depth > 0.0 ? covered_by_definition(outline.loops, p.x / depth, p.z / depth, depth)
+                        : 0.0;
+        EXPECT_NEAR(clay.mask_at(p), expected, 2e-6) << p.x << " " << p.y << " " << p.z;
+        ++compared;
+      }
+    }
+  }
+  return compared;
+}
+
+TEST(MaskOutlines, AreAsDefinedAtEveryNodeHoweverManyEdgesCrossAround) {
+  EXPECT_GT(expect_as_defined({from_the_front(30.0, true), stars(1.0)}, 0.0), 5000);
+  EXPECT_GT(expect_as_defined({from_the_front(25.0, false), stars(0.04)}, 25.0), 5000);
+  // From within the clay.
+  EXPECT_GT(expect_as_defined({from_the_front(3.0, false), stars(0.2)}, 3.0), 5000);
+}
+
+TEST(MaskOutlines, TakeAnOrientationOfAnyLength) {
+  std::vector<std::uint64_t> hashes;
+  for (const double length : {1.0, 1e-160, 1e-300, 1e160}) {
+    Clay clay = masked_ball();
+    MaskOutline outline{from_the_front(30.0, true), {letter(1.0)}};
+    outline.view.orientation = {length, length, 0.0, 0.0};
+    ASSERT_TRUE(mask_within(clay, outline).ok()) << length;
+    hashes.push_back(clay.hash());
+  }
+  EXPECT_THAT(hashes, testing::Each(hashes[0]));
 }
 
 TEST(MaskOutlines, TakeOnlyWhatLooksAtTheEyeWhereThatIsWanted) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -79,6 +80,36 @@ TEST(PieceExport, RefusesASculptureOfWhichNothingIsSeen) {
   ASSERT_FALSE(exported.ok());
   EXPECT_EQ(exported.error().kind, ErrorKind::bad_input);
   EXPECT_THAT(exported.error().message, HasSubstr("show one first"));
+}
+
+TEST(PieceExport, RefusesAFormatWithoutPartsBeforeAnyWork) {
+  const test::ScratchFolder folder;
+  int told = 0;
+  const auto exported = export_pieces(folder / "pot.stl", pot(), {},
+                                      [&](std::string_view, double) { return ++told > 0; });
+  ASSERT_FALSE(exported.ok());
+  EXPECT_EQ(exported.error().kind, ErrorKind::bad_input);
+  EXPECT_THAT(exported.error().message, HasSubstr((folder / "pot.stl").string() + ": "));
+  EXPECT_THAT(exported.error().message, HasSubstr("write a .3mf"));
+  EXPECT_EQ(told, 0);
+}
+
+TEST(PieceExport, TellsHowFarAllPiecesAreAndStopsWhenToldTo) {
+  const test::ScratchFolder folder;
+  double last = 0.0;
+  const auto rises = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1.0);
+    last = fraction;
+    return true;
+  };
+  ASSERT_TRUE(export_pieces(folder / "pot.3mf", pot(), {}, rises).ok());
+  EXPECT_GT(last, 0.95);
+  const auto stopped = export_pieces(folder / "lid.3mf", pot(), {},
+                                     [](std::string_view, double done) { return done < 0.6; });
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
+  EXPECT_FALSE(std::filesystem::exists(folder / "lid.3mf"));
 }
 
 }  // namespace

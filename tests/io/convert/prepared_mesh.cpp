@@ -72,5 +72,17 @@ TEST(PreparedMesh, IsRefusedWhereNobodyMayCloseItOrItsSizeIsAMistake) {
   EXPECT_EQ(closed.value().mesh.triangles.size(), 4U);
 }
 
+TEST(PieceNames, AreNumberedWithoutCuttingALetterInTwo) {
+  std::string umlauts;
+  for (int n = 0; n < 31; ++n) umlauts += "\u00e4";  // 62 bytes
+  const auto names = io::piece_names({umlauts, umlauts, umlauts + "x", umlauts + "xyz"});
+  ASSERT_EQ(names.size(), 4U);
+  EXPECT_EQ(names[0], umlauts);
+  EXPECT_EQ(names[1], umlauts.substr(0, 60) + " 2");
+  EXPECT_EQ(names[2], umlauts + "x");
+  EXPECT_EQ(names[3], umlauts.substr(0, 60) + " 3");
+  for (const std::string& name : names) EXPECT_TRUE(validate_look({.name = name}).ok()) << name;
+}
+
 }  // namespace
 }  // namespace argil::io

@@ -65,6 +65,8 @@ TEST_F(ScriptOutline, IsRepeatedFromTheJournalToTheBit) {
     ASSERT_TRUE(io::apply_step(session.value().sculpture(), outline).ok());
     session.value().record(outline);
     outline.frees = true;
+    outline.front_only = true;
+    outline.view.orientation = {1.4, 1.42, 0.02, 0.04};
     outline.loops[0][0] = {-0.05, 0.0};
     ASSERT_TRUE(io::apply_step(session.value().sculpture(), outline).ok());
     session.value().record(outline);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document/mesh_offer.h"
 
+#include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <numbers>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +13,8 @@
 #include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 
+#include "document/document_worker.h"
+#include "support/scratch.h"
 #include "support/shapes.h"
 #include "viewer/document/document_fixture.h"
 
@@ -58,6 +64,62 @@ TEST_F(DocumentThreadTest, SaysWhatIsWrongWithAMeshThatCannotBeOffered) {
   ASSERT_NE(thread_.state().offer, nullptr);
   EXPECT_EQ(thread_.state().offer->number, 3);
   EXPECT_TRUE(thread_.state().offer->file.empty());
+}
+
+TEST_F(DocumentThreadTest, RefusesToOfferAMeshWithoutExtent) {
+  std::ofstream(folder_ / "point.obj") << "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n";
+  thread_.send(LookAtMesh{folder_ / "point.obj", 1});
+  settle();
+  const auto said = errors();
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_THAT(said[0], HasSubstr("point.obj"));
+  EXPECT_THAT(said[0], HasSubstr("0 mm across"));
+  EXPECT_TRUE(thread_.state().offer->file.empty());
+}
+
+TEST(MeshOffers, ShowTheOutlineOfThinTrianglesWithoutGaps) {
+  const test::ScratchFolder folder;
+  // A disk that stands, as a fan of slivers about a point of its rim.
+  constexpr int kSides = 900;
+  TriangleMesh disk;
+  for (int n = 0; n < kSides; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / kSides;
+    disk.positions.push_back({10.0 * std::cos(angle), 0.0, 10.0 * std::sin(angle)});
+  }
+  for (std::uint32_t n = 1; n + 1 < kSides; ++n) disk.triangles.push_back({0, n, n + 1});
+  ASSERT_TRUE(io::write_mesh(folder / "disk.stl", disk).ok());
+  const auto offer = look_at_mesh(folder / "disk.stl");
+  ASSERT_TRUE(offer.ok()) << offer.error().message;
+  EXPECT_NEAR(covered(offer.value().along_y), 0.785, 0.02);
+  EXPECT_EQ(offer.value().along_y.runs.size(), 160U) << "one a row";
+  EXPECT_EQ(offer.value().along_z.runs.size(), 1U) << "a line";
+}
+
+TEST(MeshOffers, StopWhenToldTo) {
+  const test::ScratchFolder folder;
+  ASSERT_TRUE(io::write_mesh(folder / "ball.stl", test::ball_mesh(20.0, 4)).ok());
+  int told = 0;
+  const auto stopped =
+      look_at_mesh(folder / "ball.stl", [&](std::string_view, double) { return ++told < 4; });
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
+  EXPECT_EQ(told, 4);
+}
+
+TEST(MeshOffers, AreMadeOnlyOfTheMeshThatWasAskedForLast) {
+  const test::ScratchFolder folder;
+  std::ofstream(folder / "broken.obj") << "v 0 0 0\nf 1 2 3\n";
+  ASSERT_TRUE(io::write_mesh(folder / "ball.stl", test::ball_mesh(20.0, 2)).ok());
+  Outbox outbox;
+  DocumentWorker worker(outbox, folder.path());
+  outbox.want_look(2);
+  worker.perform(LookAtMesh{folder / "broken.obj", 1});
+  EXPECT_TRUE(outbox.take_notices().empty());
+  worker.perform(LookAtMesh{folder / "ball.stl", 2});
+  worker.show();
+  ASSERT_NE(outbox.state().offer, nullptr);
+  EXPECT_EQ(outbox.state().offer->number, 2);
+  EXPECT_EQ(outbox.state().offer->file, folder / "ball.stl");
 }
 
 TEST_F(DocumentThreadTest, ImportsAMeshAsItWasChosen) {

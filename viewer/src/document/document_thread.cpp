@@ -100,6 +100,7 @@ void DocumentThread::run() {
 }
 
 void DocumentThread::send(Request request) {
+  if (const auto* look = std::get_if<LookAtMesh>(&request)) outbox_.want_look(look->number);
   {
     const std::lock_guard lock(mutex_);
     requests_.push_back(std::move(request));

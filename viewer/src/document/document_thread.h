@@ -63,6 +63,8 @@ class DocumentThread {
 
   Task task() const { return outbox_.task(); }
   void cancel_task() noexcept { outbox_.cancel_task(); }
+  /// Nobody waits for a look at a mesh any more: one that runs ends, one that waits is skipped.
+  void stop_looking() noexcept { outbox_.want_look(0); }
 
   /// Whether on_news was called since the blocks were taken.
   bool has_news() const noexcept { return outbox_.has_news(); }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -572,9 +573,15 @@ void DocumentWorker::on(const OpenFile& open) {
 }
 
 /// The dialog says meanwhile that it is read. What cannot be read is an offer without a file, which
-/// closes the dialog.
+/// closes the dialog. What nobody waits for any more ends at once and is not spoken of.
 void DocumentWorker::on(const LookAtMesh& look) {
-  auto seen = look_at_mesh(look.file);
+  if (!outbox_.is_look_wanted(look.number)) return;
+  const Progress task = outbox_.begin_task("look at the mesh");
+  auto seen = look_at_mesh(look.file, [&](std::string_view stage, double fraction) {
+    return task(stage, fraction) && outbox_.is_look_wanted(look.number);
+  });
+  outbox_.end_task();
+  if (!outbox_.is_look_wanted(look.number)) return;
   if (!seen) complain(seen.error());
   MeshOffer offer = seen ? std::move(seen).value() : MeshOffer();
   offer.number = look.number;

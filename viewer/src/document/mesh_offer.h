@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/core/vec3.h"
 #include "argil/io/import_outlook.h"
@@ -49,7 +50,8 @@ struct MeshImport {
 };
 
 /// Reads it and looks at it.
-/// Errors  as read_assembly. Threads  any. Cost  2 us a triangle beyond reading, 0.3 s at least.
-Result<MeshOffer> look_at_mesh(const std::filesystem::path& file);
+/// Errors  as read_assembly; bad_input for what has no extent; interrupted, which reading itself
+///         does not hear. Threads  any. Cost  2 us a triangle beyond reading, 0.3 s at least.
+Result<MeshOffer> look_at_mesh(const std::filesystem::path& file, const Progress& progress = {});
 
 }  // namespace argil::viewer

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -66,6 +67,10 @@ class Outbox {
   void cancel_task() noexcept { cancels_ = true; }
   void stop_all() noexcept { is_ending_ = true; }
 
+  /// Only the look at a mesh with this number is waited for; 0 none.
+  void want_look(std::int64_t number) noexcept { wanted_look_ = number; }
+  bool is_look_wanted(std::int64_t number) const noexcept { return wanted_look_ == number; }
+
   /// What a renderer has to take, once; with the input times whose dabs it shows.
   SceneNews take_blocks(std::vector<double>& shown_inputs_s);
   std::optional<SlicePicture> take_slice();
@@ -91,6 +96,7 @@ class Outbox {
   std::atomic<bool> has_news_{false};
   std::atomic<bool> cancels_{false};
   std::atomic<bool> is_ending_{false};
+  std::atomic<std::int64_t> wanted_look_{0};
 };
 
 }  // namespace argil::viewer

@@ -96,10 +96,11 @@ struct OpenFile {
   /// What becomes of steps that a killed session left.
   enum class Left { ask, repeat, put_aside } left = Left::ask;
 };
-/// Looks at a mesh that may be imported: it becomes ClayState::offer once it is read.
+/// Looks at a mesh that may be imported: it becomes ClayState::offer once it is read. Only the one
+/// that was sent last counts: an earlier one ends without an offer.
 struct LookAtMesh {
   std::filesystem::path file;
-  std::int64_t number = 0;  ///< given back in the offer
+  std::int64_t number = 0;  ///< above 0 and not used before; given back in the offer
 };
 /// A mesh that becomes clay, as OpenFile, in the way that was chosen.
 struct ImportMesh {

@@ -275,6 +275,7 @@ void draw_answers(UiState& ui, const MeshOffer* offer, bool enters, DocumentThre
 }  // namespace
 
 void draw_import(UiState& ui, DocumentThread& document) {
+  if (!ui.panels.is_import_open) document.stop_looking();
   const MeshOffer* offer = ui.clay.offer.get();
   if (offer != nullptr && offer->number != ui.import.number) offer = nullptr;
   // What could not be read was complained of.

@@ -45,12 +45,12 @@ Result<void> validate_outline(const MaskOutline& outline);
 ///
 /// Errors   bad_input as validate_outline, or while a stroke is open; memory, interrupted: the mask
 ///          is as it was.
-/// Accuracy the border is where it was drawn: the mask is a half there, and 0 or 1 four finest
-/// voxels
-///          beside it (MaskOutlines.*). Of front_only it also fades over
-///          the last 6 degrees before the silhouette.
-/// Cost     linear in the boxes of 16 voxels that the clay and its inside take; in those that the
-///          border passes, in their nodes times the points near them.
+/// Accuracy on the surface the mask is a half, to 0.06, where the border was drawn, and 0 or 1 five
+///          finest voxels beside it (MaskOutlines.*); more than ten from the surface a box of 16
+///          may have one value, that of its middle. Of front_only it also fades over the last 6
+///          degrees before the silhouette.
+/// Cost     linear in the boxes of 16 voxels that the clay and its inside take, and in the points;
+///          in boxes that the border passes, in their nodes times the points near them.
 /// Determinism  same bits for any number of threads.
 Result<void> mask_within(Clay& clay, const MaskOutline& outline, const Progress& progress = {});
 
