@@ -86,8 +86,8 @@ bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& p
 /// Solves what is too short on one side of new levels whose values are another surface's distance
 /// plus a constant: outside of what became smaller, inside of what became larger. Only what gains
 /// more than three tenths changes, or reaches the end of the band, and never a node beside the
-/// surface. On levels that belong to no clay yet, before restrict_all(); false when `progress` asked
-/// to stop.
+/// surface. On levels that belong to no clay yet, before restrict_all(). False when `progress`
+/// asked to stop.
 ///
 /// Accuracy  that of sweep_distances(); what is less than 1.3 times too short may stay so
 ///           (OperationOffset.IsADistanceBeyondTheEndsOfWhatItShrank).
