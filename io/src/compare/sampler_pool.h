@@ -17,7 +17,7 @@ namespace argil::io {
 /// Threads      any; the clay must stay as it is.
 class SamplerPool {
  public:
-  explicit SamplerPool(const Clay& clay) : clay_(clay) {}
+  explicit SamplerPool(const Clay& clay) : clay_(clay) { free_.reserve(kMostFree); }
 
   /// A sampler for one thread, given back at the end. The pool must outlive it.
   class Lent final : public DistanceProbe {
@@ -44,9 +44,11 @@ class SamplerPool {
     free_.pop_back();
     return last;
   }
-  void give(std::unique_ptr<FieldSampler> sampler) {
+  /// As many are kept as threads may want at once; each may have looked up megabytes.
+  static constexpr std::size_t kMostFree = 64;
+  void give(std::unique_ptr<FieldSampler> sampler) noexcept {
     const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(sampler));
+    if (free_.size() < kMostFree) free_.push_back(std::move(sampler));
   }
 
   const Clay& clay_;

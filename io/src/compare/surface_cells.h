@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "argil/engine/field_sampler.h"
 #include "argil/mesh/triangle_geometry.h"
@@ -40,8 +42,8 @@ inline bool is_crossed(const FieldCell& cell) noexcept {
 }
 
 /// How far beside its cell a triangle of an extracted surface may lie, in sides: its vertices move
-/// so far off their edges (docs/surface.md).
-inline constexpr double kBesideCell = 0.15;
+/// 0.15 off their edges (docs/surface.md), and inward_of() moves a little more.
+inline constexpr double kBesideCell = 0.16;
 
 /// A little inward of the middle: a triangle in the face between two cells belongs to the one with
 /// clay in it.
@@ -57,11 +59,11 @@ void for_each_crossed_beside(const Vec3& at, const PlacedCell& own, FieldSampler
                              const Use& use) {
   assert(own.side_mm > 0.0);
   const Vec3& fraction = own.field.fraction;
-  // Along each axis: to the cell before, behind, or none.
-  Vec3 step;
+  // Along each axis: how far it is to the cell before or behind, where that is near, and where to.
+  std::array<std::optional<double>, 3> steps;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (fraction[k] < kBesideCell) step[k] = -fraction[k];
-    if (fraction[k] > 1.0 - kBesideCell) step[k] = 1.0 - fraction[k];
+    if (fraction[k] <= kBesideCell) steps[k] = -fraction[k];
+    if (fraction[k] >= 1.0 - kBesideCell) steps[k] = 1.0 - fraction[k];
   }
   for (unsigned axes = 1; axes < 8; ++axes) {
     Vec3 to = at;
@@ -69,9 +71,10 @@ void for_each_crossed_beside(const Vec3& at, const PlacedCell& own, FieldSampler
     bool is_near = true;
     for (std::size_t k = 0; k < 3; ++k) {
       if ((axes >> k & 1U) == 0) continue;
-      is_near = is_near && step[k] != 0.0;
-      distance = std::max(distance, std::abs(step[k]));
-      to[k] += own.side_mm * (step[k] + std::copysign(0.01, step[k]));
+      is_near = is_near && steps[k].has_value();
+      const double step = steps[k].value_or(0.0);
+      distance = std::max(distance, std::abs(step));
+      to[k] += own.side_mm * (step + (fraction[k] < 0.5 ? -0.01 : 0.01));
     }
     if (!is_near) continue;
     const PlacedCell beside = placed_cell_at(to, field);

@@ -69,7 +69,10 @@ TEST(HapticRigFeel, ShowsTheToolAtTheFilteredPlaceAndNeverFartherThanLambda) {
   ASSERT_TRUE(rig.start(options).ok());
   double widest_mm = 0.0;
   int looked = 0;
-  for (std::uint64_t until = 20; until < 1500; until += 20) {
+  // On a busy machine ticks come late, and the filter, which goes by time, is nearer: shaken
+  // longer.
+  for (std::uint64_t until = 20; until < 1500 || (widest_mm <= 0.5 && until < 30'000);
+       until += 20) {
     rig.lead({{until % 40 == 0 ? 20.0 : -20.0, 0.0, 5.0}});
     ASSERT_TRUE(has_ticked(rig, until));
     const RigSnapshot& seen = rig.look();
