@@ -141,10 +141,11 @@ bool FieldToMesh::is_left_out(const Vec3& at, const Cell& cell) const {
 FieldToMesh::Sample FieldToMesh::sample_at_vertex(std::uint32_t v, std::uint32_t hint,
                                                   FieldSampler& field) const {
   const Vec3& p = surface_.positions[v];
-  const Vec3 at = field.on_surface(p).value_or(p);
+  const std::optional<Vec3> on_surface = field.on_surface(p);
+  const Vec3 at = on_surface.value_or(p);
   if (is_surface_) return {at, length(at - mesh_.positions[v]), hint};
   const auto found = nearest_->closest(at, std::numeric_limits<double>::infinity(), hint);
-  return {at, at == p ? 0.0 : found.distance, found.triangle};
+  return {at, on_surface ? found.distance : 0.0, found.triangle};
 }
 
 void FieldToMesh::measure_vertices(const Pace& pace) {
