@@ -132,7 +132,8 @@ void read_operations(const CLI::App& command, EditOptions& options) {
     if (texts == options.texts.end()) continue;
     read_operation(name, texts->second.at(read[name]++), options);
   }
-  if (!options.operations.empty()) return;
+  // What CLI11 does not know it names itself, later.
+  if (!options.operations.empty() || command.remaining_size() > 0) return;
   throw CLI::ValidationError("no operation was named; give at least one, such as --offset 0.4");
 }
 

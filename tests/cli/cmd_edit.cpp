@@ -156,7 +156,10 @@ TEST_F(CliEdit, CombinesWithMeshesAndProjects) {
 }
 
 TEST_F(CliEdit, RefusesWhatCannotBeUsed) {
-  EXPECT_EQ(edit({}).status, 2);
+  const Ended none = edit({});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.err, HasSubstr("no operation was named"));
+  EXPECT_THAT(edit({"--subtract", path("none.obj")}).err, HasSubstr("--subtract"));
   EXPECT_EQ(edit({"--drain", "0,0,0,0,0,1,1"}).status, 2);
   EXPECT_EQ(edit({"--cut", "0,0,0"}).status, 2);
   EXPECT_EQ(edit({"--offset", "nan"}).status, 2);
