@@ -4,11 +4,11 @@
 // width of a node where the upwind gradient is too small, so that much is solved again, together.
 // Coarse levels first: what a level ends at is told by the next coarser one.
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <vector>
 
 #include "edit/distance_sweeps.h"
 #include "edit/leaf_set.h"

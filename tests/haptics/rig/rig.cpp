@@ -128,8 +128,12 @@ TEST(HapticRig, FeelsTheClayThatTheHandIsLedInto) {
   ASSERT_TRUE(press_rig(rig, options.start_mm, -20.0));
   EXPECT_TRUE(until_held(rig, 8.0));
   const RigSnapshot& now = rig.look();
-  // A late servo holds less: under a sanitizer some 45 N/m.
-  EXPECT_GT(now.tick.most_stiffness_n_per_m, 10.0);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr double kLeast = 10.0;  // a late servo holds less: some 45 N/m
+#else
+  constexpr double kLeast = 50.0;
+#endif
+  EXPECT_GT(now.tick.most_stiffness_n_per_m, kLeast);
   EXPECT_LT(now.tick.most_stiffness_n_per_m, 1950.0);
   EXPECT_GT(now.lateness.count(), 0U);
   ASSERT_SUCCESS(rig.stop());

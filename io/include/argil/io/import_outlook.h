@@ -26,10 +26,10 @@ class ImportOutlook {
 
   /// Of nothing.
   ImportOutlook() = default;
-  /// Shapes  any triangles with finite positions. Cost  about 1 us a triangle, 0.3 s at least for
-  ///         large meshes.
-  ///         large meshes, and linear in the length of thin ones. Memory  60 bytes a triangle
-  ///         beside its cells. Throws  Interrupted (pace.h) where progress stops it.
+  /// Shapes  any triangles with finite positions.
+  /// Errors  throws Interrupted (pace.h) where `progress` stops it, and std::bad_alloc.
+  /// Cost    about 1 us a triangle, 0.3 s at least for large meshes, and linear in the length of
+  ///         thin ones; 60 bytes of memory a triangle beside its cells.
   explicit ImportOutlook(const TriangleMesh& mesh, const Progress& progress = {});
 
   double area() const noexcept { return area_; }

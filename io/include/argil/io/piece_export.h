@@ -19,15 +19,19 @@ struct PieceExport {
 };
 
 /// Adds a piece to an assembly, by its name and where it stands: written as export_mesh does, to
-/// `temporary`, measured and judged; what was read back becomes an object of its own. Errors  as
-/// export_mesh and read_mesh: the assembly is as it was.
+/// `temporary`, measured and judged; what was read back becomes an object of its own.
+///
+/// Errors   as export_mesh and read_mesh: the assembly is as it was.
+/// Threads  as Clay. Cost  of the export and of reading it back.
 Result<ExportReport> add_piece(Assembly& assembly, const PieceLook& look, const Clay& clay,
                                const std::filesystem::path& temporary, const ExportOptions& options,
                                const Progress& progress = {});
 
 /// All visible pieces as objects of one 3MF, by their names and colours; the file appears only when
 /// all are written.
-/// Errors  as add_piece and write_assembly; bad_input where none is visible.
+///
+/// Errors   as add_piece and write_assembly; bad_input where none is visible.
+/// Threads  as Sculpture. Cost  of the exports, one after the other.
 Result<std::vector<PieceExport>> export_pieces(const std::filesystem::path& file,
                                                const Sculpture& sculpture,
                                                const ExportOptions& options,
