@@ -337,6 +337,7 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread saniti
   torture Broken release --broken tests/corpus/broken
   torture Kills release --kills 10
   torture FullDisk release --full-disk 10
+  torture Events release --events 400
 }
 
 run_thorough() {
@@ -355,6 +356,7 @@ run_thorough() {
   torture Interrupts release --interrupts 3
   need "Build.TortureSanitized" build_preset asan "argil torture_zygote"
   torture MutantsSanitized asan --mutants 1000 --seed 3 --cpu-s 60
+  torture EventsSanitized asan --events 10000 --seed 4
   stage "Debug: building argil"
   need "Build.Debug" build_preset dev argil
   stage "Release without precompiled headers and unity: building"

@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import broken
+import events
 import interrupts
 import kills
 import mutants
@@ -37,6 +38,7 @@ def main():
     parser.add_argument("--interrupts", type=int, default=0, help="of each command that takes a while")
     parser.add_argument("--kills", type=int, default=0)
     parser.add_argument("--full-disk", type=int, default=0)
+    parser.add_argument("--events", type=int, default=0, help="of random input to the window")
     options = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parents[2]
     argil = options.build / "cli" / "argil"
@@ -47,6 +49,7 @@ def main():
         "kills": lambda folder, count: kills.run_kills(argil, folder, count, options.seed, options.only),
         "full_disk": lambda folder, count: kills.run_full_disk(argil, folder, count, options.seed, options.only),
         "interrupts": lambda folder, count: interrupts.run(argil, folder, count, options.seed, options.only),
+        "events": lambda folder, count: events.run(root, argil, folder, count, options.seed),
     }
     results = []
     for name, part in parts.items():

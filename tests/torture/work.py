@@ -82,6 +82,14 @@ class Inputs:
         self.short_takes_s = time.monotonic() - start
         self.hash, self.short_hash = self.hash_of(self.project), self.hash_of(after)
 
+    def prepare_small(self):
+        """A project and a mesh that nothing takes long with."""
+        self.small, self.small_mesh = self.folder / "small.vdb", self.folder / "small.stl"
+        strokes = self.folder / "small.strokes.jsonl"
+        winding_strokes(strokes, 12, 0.4, 2)
+        self.run("sculpt", "--strokes", strokes, "-o", self.small)
+        self.run("export", self.small, "-o", self.small_mesh)
+
     def prepare_large(self):
         """A project and meshes that take most commands ten seconds."""
         self.large, self.large_mesh = self.folder / "large.vdb", self.folder / "large.stl"

@@ -63,7 +63,9 @@ TEST(InputScript, RefusesNumbersOutOfRangeWithValueAndRange) {
       {"puck 0 ", " 0 0 0 0 1", "Y", "-1 to 1", "-1", "1", "1.5"},
       {"puck 0 0 0 0 0 ", " 1", "RZ", "-1 to 1", "-1", "1", "-1.5"},
       {"puck 0 0 0 0 0 0 ", "", "S", "0 to 10 seconds", "0", "10", "-0.1"},
-      {"frames ", "", "N", "1 to 10000", "1", "10000", "2.5"}};
+      {"frames ", "", "N", "1 to 10000", "1", "10000", "2.5"},
+      {"resize ", " 480", "WIDTH", "320 to 8192 pixels", "320", "8192", "319"},
+      {"resize 640 ", "", "HEIGHT", "240 to 8192 pixels", "240", "8192", "239"}};
   for (const auto& place : places) {
     for (const char* good : {place.least, place.most}) {
       const auto steps = read(place.before + good + place.after);

@@ -659,6 +659,8 @@ Result<bool> App::play(const ScriptStep& step) {
       return false;
     }
     wait_frames_ = 2;  // drawn, and its answers shown
+  } else if (const auto* size = std::get_if<Resize>(&step.what)) {
+    window_->resize(size->width, size->height);
   } else if (const auto* shot = std::get_if<Shot>(&step.what)) {
     shots_.push_back(shot->file);
   } else {

@@ -29,6 +29,8 @@ constexpr Range kPressure{0.0, 1.0, "a number from 0 to 1"};
 constexpr Range kPuckFraction{-1.0, 1.0, "a number from -1 to 1"};
 constexpr Range kPuckSeconds{0.0, 10.0, "a number from 0 to 10 seconds"};
 constexpr Range kCount{1.0, kMostMoves, "a whole number from 1 to 10000"};
+constexpr Range kWidth{320.0, 8192.0, "a whole number from 320 to 8192 pixels"};
+constexpr Range kHeight{240.0, 8192.0, "a whole number from 240 to 8192 pixels"};
 
 /// What a line could not be read as.
 struct Misread {
@@ -75,7 +77,10 @@ class LineReader {
     } else if (command == "settle") {
       add(Settle{});
     } else if (command == "frames") {
-      add(WaitFrames{count("N")});
+      add(WaitFrames{whole("N", kCount)});
+    } else if (command == "resize") {
+      const int width = whole("WIDTH", kWidth);
+      add(Resize{width, whole("HEIGHT", kHeight)});
     } else if (command == "drop") {
       event(InputEvent::Kind::drop).files = {rest("FILE")};
     } else if (command == "shot") {
@@ -125,13 +130,13 @@ class LineReader {
     return {std::string(name) + " is " + in_quotes(word) + "; must be " + range.text};
   }
 
-  int count(const char* name) {
+  int whole(const char* name, const Range& range) {
     std::string word;
     words_ >> word;
     int number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     const bool is_whole = error == std::errc() && end == word.data() + word.size();
-    if (!is_whole || number < 1 || number > kMostMoves) throw misread(name, word, kCount);
+    if (!is_whole || number < range.least || number > range.most) throw misread(name, word, range);
     return number;
   }
 
@@ -191,7 +196,7 @@ class LineReader {
       } else {
         std::istringstream again(word);
         std::swap(words_, again);
-        moves = count("N");
+        moves = whole("N", kCount);
         std::swap(words_, again);
       }
     }

@@ -29,13 +29,18 @@ struct Settle {};
 struct PointAt {
   std::string label;
 };
+/// Gives the window another size, as a user who drags its corner.
+struct Resize {
+  int width = 0;  ///< as ViewOptions
+  int height = 0;
+};
 /// Stores the window as it looks then.
 struct Shot {
   std::filesystem::path file;
 };
 struct ScriptStep {
   int line = 0;
-  std::variant<PlayEvent, WaitFrames, Settle, PointAt, Shot> what;
+  std::variant<PlayEvent, WaitFrames, Settle, PointAt, Resize, Shot> what;
 };
 
 /// Reads a script: a command a line, # begins a comment.
@@ -48,9 +53,10 @@ struct ScriptStep {
 ///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach (-1 to 1), for S seconds
 ///                               (0 to 10)
 ///   drop FILE                   shot FILE.png               close
+///   resize WIDTH HEIGHT         of the window, in pixels of the screen
 ///
 /// X and Y of the pointer reach from -100000 to 100000 pixels, STEPS from -100 to 100, N from 1 to
-/// 10000.
+/// 10000, WIDTH from 320 and HEIGHT from 240 to 8192.
 ///
 /// Errors  bad_input naming line and word, and for a number its range; disk.
 Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& file);

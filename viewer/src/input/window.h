@@ -42,6 +42,8 @@ class Window {
   void swap();
   void set_swap_interval(int frames);
   void set_title(const std::string& title);
+  /// As a user would who drags its corner; the system may decide otherwise.
+  void resize(int width, int height);
   double now_s() const;
 
   int width() const noexcept { return width_; }  ///< in pixels of the framebuffer
