@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Sets up, builds and runs the tests; docs/testing.md says which check is where and why.
-# Usage: ./tests/run.sh [--thorough | --only PATTERN]
+# Usage: ./tests/run.sh [--thorough | --bare | --only PATTERN]
 #   (nothing)       every promise in Release; sanitizers on core, haptics and the readers
 #   --thorough      that, and what takes longer: every sanitizer test, Debug, clang-tidy, soak tests,
-#                   builds without precompiled headers and unity and linked as a whole, bare systems
+#                   builds without precompiled headers and unity and linked as a whole, packages
+#   --bare          the README's commands, all tests and the packages on bare Debian 12 and 13
 #   --only PATTERN  builds and runs just the Release tests whose name matches the regular expression
 # The last line is "N passed, N failed, N skipped" over everything; each skip is named before it
 # with its reason. Exit status 1 when something failed.
@@ -16,7 +17,7 @@ say_name=tests
 . cmake/say.sh
 
 usage() {
-  sed -n '4,9s/^# //p' "${BASH_SOURCE[0]}" >&2
+  sed -n '4,10s/^# //p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -24,6 +25,7 @@ mode=usual pattern=''
 case ${1:-} in
   '') ;;
   --thorough) mode=thorough ;;
+  --bare) mode=bare ;;
   --only)
     [ $# -eq 2 ] && [ -n "$2" ] || usage
     mode=only pattern=$2
@@ -341,10 +343,7 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread saniti
 }
 
 run_thorough() {
-  local name
   export ARGIL_THOROUGH=1
-  # What is tested on bare systems is the same however long it takes to compile.
-  export ARGIL_FRESH_WARM=${ARGIL_FRESH_WARM-1}
   run_usual "all benchmarks" ''
   sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_mesh test_io test_viewer" '' \
     -DARGIL_SANITIZE_WITHOUT='' -DARGIL_SANITIZE_CGAL=ON
@@ -371,6 +370,13 @@ run_thorough() {
   stage "clang-tidy"
   check "Lint.Tidy" check_tidy
   end_bare_systems
+  finish
+}
+
+run_bare() {
+  local name release
+  # What is tested there is the same however long it takes to compile.
+  export ARGIL_FRESH_WARM=${ARGIL_FRESH_WARM-1}
   for name in demo tests package; do
     for release in bookworm trixie; do
       stage "bare $release: $name"
@@ -389,6 +395,7 @@ fi
 case $mode in
   only) run_only ;;
   thorough) run_thorough ;;
+  bare) run_bare ;;
   usual)
     run_usual all '^slow$' -L threads # the rest of the thread sanitizer's starts none
     # Programs of a thorough run before, if there are any, are old.

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How much of the picture is not yet what it will be 100 ms after a dab: strokes with tools of
+// several sizes on a ball whose finest level is everywhere, drawn as the window draws them, the
+// picture of that moment against the one once the clay has done everything. Prints a markdown
+// table. Usage: bench_blur
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "argil/io/project_file.h"
+
+#include "bench/clock.h"
+#include "bench/quantile.h"
+#include "document/document_thread.h"
+#include "gl/gl_renderer.h"
+#include "picture/camera.h"
+#include "support/bumpy_clay.h"
+#include "support/scratch.h"
+#include "viewer/support/offscreen.h"
+
+namespace argil::bench {
+namespace {
+
+constexpr int kWidth = 640;
+constexpr int kHeight = 480;
+constexpr double kBallMm = 14.0;
+constexpr double kVoxelMm = 0.1;
+constexpr double kAfterMs = 100.0;
+constexpr int kDabs = 24;
+constexpr int kStepsSeen = 4;  ///< of 255: what the eye tells apart beside its neighbour
+
+[[noreturn]] void stop(const std::string& message) {
+  std::fprintf(stderr, "bench_blur: %s\n", message.c_str());
+  std::exit(1);
+}
+
+/// A window without panels, looked into while the document thread works.
+class Watched {
+ public:
+  Watched() {
+    std::string why_not;
+    screen_ = test::Offscreen::make(kWidth, kHeight, why_not);
+    if (screen_ == nullptr) stop(why_not);
+    auto made = viewer::make_gl_renderer();
+    if (!made) stop(made.error().message);
+    renderer_ = std::move(made).value();
+    const double half = kBallMm + 3.0;
+    content_mm_ = {{-half, -half, -half}, {half, half, half}};
+    camera_.resize(kWidth, kHeight);
+    camera_.look_from({0.0, -1.0, 0.0}, {0.0, 0.0, 1.0});
+    camera_.frame(content_mm_);
+    camera_.zoom(2.0, {0.5 * kWidth, 0.5 * kHeight});  // a voxel is three pixels
+    const auto clay = test::bumpy_ball(kBallMm, kVoxelMm);
+    if (!clay) stop(clay.error().message);
+    if (auto done = io::save_project(folder_ / "p.vdb", clay.value()); !done)
+      stop(done.error().message);
+    thread_.look(camera_.display_view());
+    thread_.send(viewer::OpenFile{folder_ / "p.vdb"});
+    settle();
+  }
+
+  viewer::DocumentThread& thread() { return thread_; }
+
+  /// As the window would show it then, each piece of news drawn when it is there.
+  Image after(double ms) {
+    const double end = wall_ms() + ms;
+    do {
+      if (!take()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (wall_ms() < end);
+    return image();
+  }
+  Image settled() {
+    settle();
+    return image();
+  }
+
+ private:
+  bool take() {
+    std::vector<double> inputs;
+    const viewer::SceneNews news = thread_.take_blocks(inputs);
+    for (const auto& [piece, blocks] : news.pieces) {
+      piece_ = piece;
+      if (blocks.is_fresh) renderer_->drop(piece);
+      for (const BlockId& id : blocks.gone) renderer_->drop(piece, id);
+      for (const auto& [id, block] : blocks.changed) {
+        if (const auto done = renderer_->put(piece, block); !done) stop(done.error().message);
+      }
+    }
+    if (!news.empty()) draw();
+    return !news.empty();
+  }
+  void settle() {
+    do {
+      if (!take()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (!thread_.is_idle());
+  }
+  void draw() {
+    viewer::Picture picture;
+    picture.pieces = {viewer::ShownPiece{.piece = piece_}};
+    picture.lens = camera_.lens(content_mm_);
+    const auto done = renderer_->draw(picture, screen_->framebuffer(), kWidth, kHeight);
+    if (!done) stop(done.error().message);
+  }
+  Image image() { return renderer_->read_image(screen_->framebuffer(), kWidth, kHeight); }
+
+  test::ScratchFolder folder_;
+  viewer::DocumentThread thread_{viewer::DocumentThreadOptions{folder_.path()}};
+  std::unique_ptr<test::Offscreen> screen_;
+  std::unique_ptr<viewer::Renderer> renderer_;
+  viewer::Camera camera_;
+  Box3 content_mm_;
+  viewer::PieceKey piece_ = 0;
+};
+
+/// The share of pixels, in percent, of which any colour differs by more than can be seen.
+double differing_percent(const Image& a, const Image& b) {
+  std::size_t count = 0;
+  const std::size_t pixels = a.rgb.size() / 3;
+  for (std::size_t n = 0; n < pixels; ++n) {
+    int most = 0;
+    for (std::size_t c = 3 * n; c < 3 * n + 3; ++c)
+      most = std::max(most, std::abs(int{a.rgb[c]} - int{b.rgb[c]}));
+    count += most > kStepsSeen ? 1 : 0;
+  }
+  return 100.0 * static_cast<double>(count) / static_cast<double>(pixels);
+}
+
+void stroke(Watched& window, Action action, const char* name, double radius_mm, double strength) {
+  Tool tool;
+  tool.action = action;
+  tool.radii_mm = {radius_mm, radius_mm, radius_mm};
+  tool.strength = strength;
+  std::vector<double> percent;
+  std::vector<double> whole_ms;
+  window.thread().send(viewer::BeginStroke{tool, {}});
+  for (int n = 0; n < kDabs; ++n) {
+    const double turn = 0.03 * n - 0.36;
+    const Vec3 place = kBallMm * Vec3{std::sin(turn), -std::cos(turn), 0.1};
+    const double start = wall_ms();
+    window.thread().send(viewer::ExtendStroke{{{0.1 * n, place, {}, 1.0}}, 0.0});
+    const Image then = window.after(kAfterMs);
+    const Image last = window.settled();
+    whole_ms.push_back(wall_ms() - start);
+    percent.push_back(differing_percent(then, last));
+  }
+  window.thread().send(viewer::EndStroke{});
+  const Image then = window.after(kAfterMs);
+  const double at_end = differing_percent(then, window.settled());
+  std::printf("| %s, %.1f mm | %.3f | %.3f | %.3f | %.0f |\n", name, radius_mm,
+              quantile(percent, 0.5), quantile(percent, 1.0), at_end, quantile(whole_ms, 1.0));
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace argil::bench
+
+int main() {
+  using namespace argil;
+  using namespace argil::bench;
+  Watched window;
+  std::printf(
+      "Percent of all pixels that differ by more than %d of 255, %.0f ms after a dab; %d dabs.\n\n"
+      "| tool | median | worst | after the stroke's end | all done after ms, at most |\n"
+      "|---|---|---|---|---|\n",
+      kStepsSeen, kAfterMs, kDabs);
+  for (const double radius : {1.0, 3.0, 5.0, 8.0}) {
+    stroke(window, Action::inflate, "Draw", radius, 0.4);
+    stroke(window, Action::carve, "Carve", radius, 0.5);
+    stroke(window, Action::smooth, "Smooth", radius, 0.5);
+    stroke(window, Action::grab, "Grab", radius, 0.4);
+  }
+}
