@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,10 +10,11 @@
 #include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay.h"
 #include "argil/engine/field_sampler.h"
-#include "argil/engine/mesh_distance.h"
 #include "argil/mesh/decimate.h"
 
 #include "compare/block_slopes.h"
+#include "compare/cell_set.h"
+#include "compare/left_out_parts.h"
 #include "compare/sampler_pool.h"
 
 namespace argil::io {
@@ -33,8 +33,8 @@ namespace argil::io {
 /// What that does not settle is cut in four.
 class BlockProof final : public mesh::BoundProof {
  public:
-  /// The cells are those with a part of phi = 0 that `surface`, as extracted, stands for; points
-  /// nearer to `left_out` do not count. All must outlive this. Throws Interrupted.
+  /// The cells are those of surface_cells(); what of phi = 0 is provably of components that were
+  /// `left_out` does not count (LeftOutParts). All must outlive this. Throws Interrupted.
   BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
              double bound_mm, const Pace& pace);
 
@@ -47,26 +47,13 @@ class BlockProof final : public mesh::BoundProof {
                      std::span<std::uint8_t> is_near) const override;
 
  private:
-  /// A cell and triangles of the surface that lie in it or beside it, `count` from `first` on.
-  struct Cell {
-    std::array<float, 8> corners;
-    Vec3 low_mm;
-    double side_mm = 0.0;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
   class CellQuestion;
-  class CellSet;
-
-  void find_cells(std::size_t begin, std::size_t end, CellSet& cells) const;
-  bool is_left_out(const Vec3& at, const Cell& cell) const;
 
   const TriangleMesh& surface_;
-  const Clay& clay_;
-  std::optional<MeshDistance> left_out_;
   double bound_mm_;
   double voxel_mm_;
-  std::vector<Cell> cells_;
+  std::vector<SurfaceCell> cells_;
+  std::optional<LeftOutParts> left_out_;
   mutable SamplerPool samplers_;
   mutable BlockSlopes slopes_;
 };
