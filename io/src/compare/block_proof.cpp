@@ -16,17 +16,14 @@ constexpr double kLeastPiece = 0.02;
 
 }  // namespace
 
-BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
-                       double bound_mm, const Pace& pace)
+BlockProof::BlockProof(ExtractedSurface& surface, double bound_mm, const Pace& pace)
     : surface_(surface),
       bound_mm_(bound_mm),
-      voxel_mm_(clay.options().voxel_mm),
-      cells_(surface_cells(surface, clay, pace.part(0.0, 0.9))),
-      samplers_(clay),
+      voxel_mm_(surface.voxel_mm()),
+      samplers_(surface.clay()),
       slopes_(voxel_mm_) {
   assert(bound_mm > 0.0);
-  if (left_out.triangles.empty()) return;
-  left_out_.emplace(surface, left_out, cells_, voxel_mm_, pace.part(0.9, 1.0));
+  surface.prepare(pace);
 }
 
 class BlockProof::CellQuestion {
@@ -34,9 +31,9 @@ class BlockProof::CellQuestion {
   CellQuestion(const BlockProof& proof, std::uint32_t cell, mesh::NearTriangles& mesh)
       : proof_(proof),
         cell_(cell),
-        low_mm_(proof.cells_[cell].low_mm(proof.voxel_mm_)),
-        side_mm_(proof.cells_[cell].side_mm(proof.voxel_mm_)),
-        phi_(proof.cells_[cell].corners),
+        low_mm_(proof.surface_.cells()[cell].low_mm(proof.voxel_mm_)),
+        side_mm_(proof.surface_.cells()[cell].side_mm(proof.voxel_mm_)),
+        phi_(proof.surface_.cells()[cell].corners),
         mesh_(mesh) {}
 
   /// Of the box from `low` to `low + side`, as fractions of the cell.
@@ -77,7 +74,7 @@ class BlockProof::CellQuestion {
   }
 
   bool is_left_out(const Vec3& low, double side) const {
-    return proof_.left_out_ && proof_.left_out_->has_all(cell_, low, side);
+    return proof_.surface_.is_left_out(cell_, low, side);
   }
 
   const BlockProof& proof_;

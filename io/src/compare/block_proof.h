@@ -2,19 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "argil/core/pace.h"
-#include "argil/core/triangle_mesh.h"
-#include "argil/engine/clay.h"
 #include "argil/engine/field_sampler.h"
 #include "argil/mesh/decimate.h"
 
 #include "compare/block_slopes.h"
-#include "compare/cell_set.h"
-#include "compare/left_out_parts.h"
+#include "compare/extracted_surface.h"
 #include "compare/sampler_pool.h"
 
 namespace argil::io {
@@ -33,14 +28,15 @@ namespace argil::io {
 /// What that does not settle is cut in four.
 class BlockProof final : public mesh::BoundProof {
  public:
-  /// The cells are those of surface_cells(); what of phi = 0 is provably of components that were
-  /// `left_out` does not count (LeftOutParts). All must outlive this. Throws Interrupted.
-  BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
-             double bound_mm, const Pace& pace);
+  /// What of phi = 0 is provably of components that were left out of the surface does not count
+  /// (LeftOutParts). The surface must outlive this. Throws Interrupted.
+  BlockProof(ExtractedSurface& surface, double bound_mm, const Pace& pace);
 
-  std::uint32_t cells() const override { return static_cast<std::uint32_t>(cells_.size()); }
+  std::uint32_t cells() const override {
+    return static_cast<std::uint32_t>(surface_.cells().size());
+  }
   std::uint32_t vertex_of(std::uint32_t cell) const override {
-    return surface_.triangles[cells_[cell].first][0];
+    return surface_.mesh().triangles[surface_.cells()[cell].first][0];
   }
   bool is_near(std::uint32_t cell, mesh::NearTriangles& mesh) const override;
   void ask_triangles(std::span<const mesh::Corners> triangles,
@@ -49,11 +45,9 @@ class BlockProof final : public mesh::BoundProof {
  private:
   class CellQuestion;
 
-  const TriangleMesh& surface_;
+  const ExtractedSurface& surface_;
   double bound_mm_;
   double voxel_mm_;
-  std::vector<SurfaceCell> cells_;
-  std::optional<LeftOutParts> left_out_;
   mutable SamplerPool samplers_;
   mutable BlockSlopes slopes_;
 };

@@ -28,14 +28,12 @@ std::array<double, 4> mean_lines(std::size_t cell) {
 
 }  // namespace
 
-FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                         const TriangleMesh& left_out)
+FieldToMesh::FieldToMesh(const TriangleMesh& mesh, ExtractedSurface& surface)
     : mesh_(mesh),
-      surface_(surface),
-      clay_(clay),
-      left_out_mesh_(left_out),
-      is_surface_(mesh.triangles == surface.triangles),
-      voxel_mm_(clay.options().voxel_mm) {
+      extracted_(surface),
+      surface_(surface.mesh()),
+      is_surface_(mesh.triangles == surface.mesh().triangles),
+      voxel_mm_(surface.voxel_mm()) {
   if (is_surface_) {
     runs_.emplace(mesh);
   } else {
@@ -44,7 +42,7 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
 }
 
 FieldToMesh::Cell FieldToMesh::cell(std::uint32_t number) const {
-  const SurfaceCell& cell = cells_[number];
+  const SurfaceCell& cell = extracted_.cells()[number];
   return {number, cell.low_mm(voxel_mm_), cell.side_mm(voxel_mm_), Trilinear(cell.corners)};
 }
 
@@ -57,7 +55,7 @@ FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std
     return {at, found.distance, found.triangle};
   }
   TriangleRuns::Closest known{std::numeric_limits<double>::infinity(), kNoTriangle};
-  const SurfaceCell& in = cells_[cell.number];
+  const SurfaceCell& in = extracted_.cells()[cell.number];
   for (std::uint32_t t = in.first; t < in.first + in.count; ++t) {
     const auto& [a, b, c] = mesh::corners_of(mesh_, t);
     const double distance = length(at - closest_on_triangle(at, a, b, c));
@@ -68,7 +66,7 @@ FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std
 }
 
 bool FieldToMesh::is_left_out(const Vec3& fraction, const Cell& cell) const {
-  return left_out_ && left_out_->has_all(cell.number, fraction, 0.0);
+  return extracted_.is_left_out(cell.number, fraction, 0.0);
 }
 
 /// Where phi = 0 near a vertex of the surface, which lies on a side of a cell but for rounding and
@@ -86,7 +84,7 @@ FieldToMesh::Sample FieldToMesh::sample_at_vertex(std::uint32_t v, std::uint32_t
 void FieldToMesh::measure_vertices(const Pace& pace) {
   at_vertex_.resize(surface_.positions.size());
   in_blocks(at_vertex_.size(), pace, [&](std::size_t begin, std::size_t end) {
-    FieldSampler field(clay_);
+    FieldSampler field(extracted_.clay());
     std::uint32_t hint = kNoTriangle;
     for (std::size_t v = begin; v < end; ++v) {
       at_vertex_[v] = sample_at_vertex(static_cast<std::uint32_t>(v), hint, field);
@@ -186,7 +184,7 @@ bool FieldToMesh::has_all_vertices(const SurfaceCell& cell) const {
 }
 
 double FieldToMesh::bound_at_vertices(const Cell& cell) const {
-  const SurfaceCell& in = cells_[cell.number];
+  const SurfaceCell& in = extracted_.cells()[cell.number];
   std::vector<Sample> points;
   double most = 0.0;
   const auto add = [&](const Sample& sample) {
@@ -229,7 +227,7 @@ void FieldToMesh::add_cell(const Cell& cell, std::size_t turn, std::uint32_t& hi
 DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
   assert(at_vertex_.size() == surface_.positions.size());
   constexpr std::size_t kEnough = 50'000;
-  const std::size_t count = cells_.size();
+  const std::size_t count = extracted_.cells().size();
   const std::size_t stride = std::max<std::size_t>(1, count / kEnough);
   bound_.assign(count, 0.0F);
   std::vector<DistanceSums> blocks(block_count(count));
@@ -238,7 +236,7 @@ DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
     std::uint32_t hint = kNoTriangle;
     for (std::size_t c = begin; c < end; ++c) {
       const Cell at = cell(static_cast<std::uint32_t>(c));
-      const double bulge = most_bulge(cells_[c].corners) * at.side_mm;
+      const double bulge = most_bulge(extracted_.cells()[c].corners) * at.side_mm;
       bound_[c] = rounded_up(bound_at_vertices(at) + bulge);
       if (c % stride == 0) add_cell(at, c / stride, hint, sums);
     }
@@ -267,7 +265,8 @@ double FieldToMesh::refined(const Cell& cell, const Vec3& low, double side, doub
   constexpr double kLeastSide = 1.0 / 64.0;
   std::vector<Sample> points;
   Bulge bulge;
-  const std::uint32_t hint = at_vertex_[surface_.triangles[cells_[cell.number].first][0]].nearest;
+  const std::uint32_t hint =
+      at_vertex_[surface_.triangles[extracted_.cells()[cell.number].first][0]].nearest;
   const auto add = [&](const Vec3& fraction) {
     if (is_left_out(fraction, cell)) return false;
     points.push_back(sample_at(cell.at(fraction), cell, hint, found));
@@ -290,10 +289,7 @@ double FieldToMesh::refined(const Cell& cell, const Vec3& low, double side, doub
 }
 
 mesh::DistanceSummary FieldToMesh::measure(const Pace& pace) {
-  cells_ = surface_cells(surface_, clay_, pace.part(0.0, 0.2));
-  if (!left_out_mesh_.triangles.empty()) {
-    left_out_.emplace(surface_, left_out_mesh_, cells_, voxel_mm_, pace.part(0.2, 0.2));
-  }
+  extracted_.prepare(pace.part(0.0, 0.2));
   measure_vertices(pace.part(0.2, 0.4));
   const DistanceSums found_first = measure_cells(pace.part(0.4, 0.75));
   mesh::DistanceSummary summary = found_first.summary();

@@ -9,11 +9,10 @@
 #include "argil/engine/mesh_distance.h"
 #include "argil/mesh/triangle_geometry.h"
 
-#include "compare/cell_set.h"
 #include "compare/distance_sums.h"
+#include "compare/extracted_surface.h"
 #include "compare/field_error.h"
 #include "compare/field_zeros.h"
-#include "compare/left_out_parts.h"
 #include "compare/triangle_runs.h"
 
 namespace argil::io {
@@ -33,8 +32,8 @@ namespace argil::io {
 /// question: BlockProof.
 class FieldToMesh {
  public:
-  FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-              const TriangleMesh& left_out);
+  /// Both must outlive this.
+  FieldToMesh(const TriangleMesh& mesh, ExtractedSurface& surface);
 
   mesh::DistanceSummary measure(const Pace& pace);
 
@@ -46,7 +45,7 @@ class FieldToMesh {
   };
   /// Where a cell lies.
   struct Cell {
-    std::uint32_t number = 0;  ///< of cells_
+    std::uint32_t number = 0;
     Vec3 low_mm;
     double side_mm = 0.0;
     Trilinear phi;
@@ -68,11 +67,8 @@ class FieldToMesh {
   double refined(const Cell& cell, const Vec3& low, double side, double found) const;
 
   const TriangleMesh& mesh_;
+  ExtractedSurface& extracted_;
   const TriangleMesh& surface_;
-  const Clay& clay_;
-  const TriangleMesh& left_out_mesh_;
-  std::vector<SurfaceCell> cells_;
-  std::optional<LeftOutParts> left_out_;
   bool is_surface_;  ///< but for rounding: then the nearest triangle is in or beside the cell
   std::optional<TriangleRuns> runs_;     ///< where it is
   std::optional<MeshDistance> nearest_;  ///< where it is not
