@@ -17,11 +17,17 @@ namespace argil {
 /// hundred thousand voxels looks each node up once. Valid while nobody writes the stack, which must
 /// be nested.
 ///
-/// Cost  0.5 kB an octant, 8 MB at most: then it begins anew. 0.1 us where an octant is asked for
+/// Cost  0.5 kB an octant, 8 MB for as many as are usual: then it begins anew. 0.1 us where an
+/// octant is asked for
 ///       the first time, 0.5 us the second, 5 ns from then on.
 class OctantStore {
  public:
-  explicit OctantStore(const LevelStack& stack) : cells_(stack), slots_(kFirstSlots) {}
+  static constexpr std::uint32_t kUsualMost = 16384;
+  /// Remembers `most` octants at most, 1 or more.
+  explicit OctantStore(const LevelStack& stack, std::uint32_t most = kUsualMost)
+      : most_(most), cells_(stack), slots_(kFirstSlots) {
+    assert(most >= 1);
+  }
 
   int finest_level(const Coord& cell) { return cells_.finest_level(cell); }
 
@@ -41,7 +47,6 @@ class OctantStore {
  private:
   using Values = std::array<float, 125>;
   static constexpr std::size_t kFirstSlots = 256;
-  static constexpr std::uint32_t kMost = 16384;
   static constexpr std::uint32_t kChunk = 64;
   struct Slot {
     Coord low;
@@ -61,7 +66,7 @@ class OctantStore {
       once = {low, level, 0};
       return nullptr;
     }
-    if (count_ == kMost) forget();
+    if (count_ == most_) forget();
     if (2 * count_ >= slots_.size()) grow();
     const std::uint32_t number = count_++;
     if (number / kChunk == chunks_.size()) {
@@ -102,6 +107,7 @@ class OctantStore {
     count_ = 0;
   }
 
+  std::uint32_t most_;
   LeafCells cells_;
   std::array<Slot, 64> once_;  ///< asked for once, lately
   std::vector<Slot> slots_;    ///< as many as a power of two

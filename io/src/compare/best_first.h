@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,11 +16,18 @@
 
 namespace argil::io {
 
+/// A bound from above as a float: never less than it was.
+inline float rounded_up(double bound) noexcept {
+  const auto nearest = static_cast<float>(bound);
+  constexpr float kMost = std::numeric_limits<float>::infinity();
+  return static_cast<double>(nearest) < bound ? std::nextafter(nearest, kMost) : nearest;
+}
+
 /// The greatest value that is at least `found` among items of which only a bound is known.
-/// `make_refine()` is asked once for each block of items: its `refine(item, found)` gives an item's
-/// own greatest value, or anything not above `found` when it does not exceed that. Items with the
-/// greatest bounds come first, so that the rest can be left alone; in blocks of fixed size, so that
-/// bits do not depend on threads.
+/// `bounds`: by rounded_up(). `make_refine()` is asked once for each block of items: its
+/// `refine(item, found)` gives an item's own greatest value, or anything not above `found` when it
+/// does not exceed that. Items with the greatest bounds come first, so that the rest can be left
+/// alone; in blocks of fixed size, so that bits do not depend on threads.
 template <class MakeRefine>
 double greatest_by_bound(const std::vector<float>& bounds, double found, const Pace& pace,
                          const MakeRefine& make_refine) {

@@ -5,13 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
-#include "argil/core/closest_on_triangle.h"
 #include "argil/mesh/triangle_geometry.h"
-
-#include "compare/distance_sums.h"
-#include "compare/surface_cells.h"
 
 namespace argil::io {
 namespace {
@@ -21,120 +16,32 @@ constexpr double kLeastPiece = 0.02;
 
 }  // namespace
 
-/// The cells that triangles stand for, each once.
-class BlockProof::CellSet {
- public:
-  /// A cell in which triangle `t` lies, or which is so far from it in sides.
-  void add(const PlacedCell& cell, std::size_t t, double distance) {
-    add(key_of(cell),
-        {cell.field.corners, cell.low_mm, cell.side_mm, static_cast<std::uint32_t>(t), 1},
-        distance);
-  }
-  void add(const CellSet& others) {
-    for (std::size_t i = 0; i < others.cells_.size(); ++i) {
-      add(others.found_[i].key, others.cells_[i], others.found_[i].distance);
-    }
-  }
-  const std::vector<Cell>& cells() const noexcept { return cells_; }
-
- private:
-  using Key = std::array<int, 4>;
-  struct Hash {
-    std::size_t operator()(const Key& k) const noexcept {
-      return static_cast<std::size_t>(
-          static_cast<unsigned>(k[0]) * 73856093U ^ static_cast<unsigned>(k[1]) * 19349663U ^
-          static_cast<unsigned>(k[2]) * 83492791U ^ static_cast<unsigned>(k[3]) * 2654435761U);
-    }
-  };
-  struct Found {
-    Key key;
-    double distance = 0.0;
-  };
-
-  static Key key_of(const PlacedCell& cell) {
-    const Vec3 low = cell.field.per_mm * cell.low_mm;
-    return {static_cast<int>(std::lround(low.x)), static_cast<int>(std::lround(low.y)),
-            static_cast<int>(std::lround(low.z)), cell.field.level};
-  }
-  void add(const Key& key, const Cell& cell, double distance) {
-    const auto [known, is_new] = numbers_.try_emplace(key, cells_.size());
-    if (is_new) {
-      cells_.push_back(cell);
-      found_.push_back({key, distance});
-      return;
-    }
-    Cell& met = cells_[known->second];
-    double& nearest = found_[known->second].distance;
-    if (distance == 0.0 && nearest == 0.0) {
-      if (met.first + met.count == cell.first) met.count += cell.count;
-    } else if (distance < nearest) {
-      // From a nearer triangle the search begins on the right side of what is thin.
-      nearest = distance;
-      met = cell;
-    }
-  }
-
-  std::vector<Cell> cells_;
-  std::vector<Found> found_;  ///< of each cell
-  std::unordered_map<Key, std::size_t, Hash> numbers_;
-};
-
-BlockProof::BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
-                       double bound_mm, const Pace& pace)
+BlockProof::BlockProof(ExtractedSurface& surface, double bound_mm, const Pace& pace)
     : surface_(surface),
-      clay_(clay),
       bound_mm_(bound_mm),
-      voxel_mm_(clay.options().voxel_mm),
-      samplers_(clay),
+      voxel_mm_(surface.voxel_mm()),
+      samplers_(surface.clay()),
       slopes_(voxel_mm_) {
   assert(bound_mm > 0.0);
-  if (!left_out.triangles.empty()) left_out_.emplace(left_out.positions, left_out.triangles);
-  std::vector<CellSet> blocks(block_count(surface.triangles.size()));
-  in_blocks(surface.triangles.size(), pace, [&](std::size_t begin, std::size_t end) {
-    find_cells(begin, end, blocks[begin / kDistanceBlock]);
-  });
-  CellSet all;
-  for (const CellSet& block : blocks) all.add(block);
-  cells_ = all.cells();
-}
-
-/// Of each triangle the cell that it lies in and those beside it that may have been its own: no
-/// cell that phi = 0 passes through is without a triangle in it or so near.
-void BlockProof::find_cells(std::size_t begin, std::size_t end, CellSet& cells) const {
-  FieldSampler field(clay_);
-  for (std::size_t t = begin; t < end; ++t) {
-    const Vec3 at = inward_of(mesh::corners_of(surface_, t), voxel_mm_);
-    const PlacedCell own = placed_cell_at(at, field);
-    if (own.side_mm == 0.0) continue;
-    if (is_crossed(own.field)) cells.add(own, t, 0.0);
-    for_each_crossed_beside(at, own, field, [&](const PlacedCell& cell, double distance) {
-      cells.add(cell, t, distance);
-    });
-  }
-}
-
-/// Whether a point is one of the parts left out, of which a cell may have some too.
-bool BlockProof::is_left_out(const Vec3& at, const Cell& cell) const {
-  if (!left_out_) return false;
-  double own = 2.0 * cell.side_mm;
-  for (std::size_t t = cell.first; t < cell.first + cell.count; ++t) {
-    const auto& [a, b, c] = mesh::corners_of(surface_, t);
-    own = std::min(own, length(at - closest_on_triangle(at, a, b, c)));
-  }
-  return left_out_->closest(at, own).triangle != kNoTriangle;
+  surface.prepare(pace);
 }
 
 class BlockProof::CellQuestion {
  public:
-  CellQuestion(const BlockProof& proof, const Cell& cell, mesh::NearTriangles& mesh)
-      : proof_(proof), cell_(cell), phi_(cell.corners), mesh_(mesh) {}
+  CellQuestion(const BlockProof& proof, std::uint32_t cell, mesh::NearTriangles& mesh)
+      : proof_(proof),
+        cell_(cell),
+        low_mm_(proof.surface_.cells()[cell].low_mm(proof.voxel_mm_)),
+        side_mm_(proof.surface_.cells()[cell].side_mm(proof.voxel_mm_)),
+        phi_(proof.surface_.cells()[cell].corners),
+        mesh_(mesh) {}
 
   /// Of the box from `low` to `low + side`, as fractions of the cell.
   bool is_near(const Vec3& low, double side) const {
     if (!may_have_zero(low, side)) return true;
     const double half = 0.5 * side;
-    const Vec3 at = cell_.low_mm + cell_.side_mm * (low + Vec3{half, half, half});
-    const double reach = std::numbers::sqrt3 * half * cell_.side_mm;
+    const Vec3 at = low_mm_ + side_mm_ * (low + Vec3{half, half, half});
+    const double reach = std::numbers::sqrt3 * half * side_mm_;
     const double bound = proof_.bound_mm_;
     double distance = mesh_.distance_mm(at, bound - reach);
     if (distance + reach <= bound) return true;
@@ -143,7 +50,7 @@ class BlockProof::CellQuestion {
     if (is_least || distance - reach > bound) {
       distance = mesh_.distance_far_mm(at, bound - reach);
       if (distance + reach <= bound) return true;
-      if (is_least || distance - reach > bound) return proof_.is_left_out(at, cell_);
+      if (is_least || distance - reach > bound) return is_left_out(low, side);
     }
     for (int octant = 0; octant < 8; ++octant) {
       const Vec3 shift{half * (octant >> 2), half * (octant >> 1 & 1), half * (octant & 1)};
@@ -166,14 +73,20 @@ class BlockProof::CellQuestion {
     return is_inside && is_outside;
   }
 
+  bool is_left_out(const Vec3& low, double side) const {
+    return proof_.surface_.is_left_out(cell_, low, side);
+  }
+
   const BlockProof& proof_;
-  const Cell& cell_;
+  std::uint32_t cell_;
+  Vec3 low_mm_;
+  double side_mm_;
   Trilinear phi_;
   mesh::NearTriangles& mesh_;
 };
 
 bool BlockProof::is_near(std::uint32_t cell, mesh::NearTriangles& mesh) const {
-  return CellQuestion(*this, cells_[cell], mesh).is_near({}, 1.0);
+  return CellQuestion(*this, cell, mesh).is_near({}, 1.0);
 }
 
 namespace {

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
 
 #include "argil/core/pace.h"
-#include "argil/core/triangle_mesh.h"
-#include "argil/engine/clay.h"
 #include "argil/engine/field_sampler.h"
-#include "argil/engine/mesh_distance.h"
 #include "argil/mesh/decimate.h"
 
 #include "compare/block_slopes.h"
+#include "compare/extracted_surface.h"
 #include "compare/sampler_pool.h"
 
 namespace argil::io {
@@ -33,40 +28,26 @@ namespace argil::io {
 /// What that does not settle is cut in four.
 class BlockProof final : public mesh::BoundProof {
  public:
-  /// The cells are those with a part of phi = 0 that `surface`, as extracted, stands for; points
-  /// nearer to `left_out` do not count. All must outlive this. Throws Interrupted.
-  BlockProof(const TriangleMesh& surface, const Clay& clay, const TriangleMesh& left_out,
-             double bound_mm, const Pace& pace);
+  /// What of phi = 0 is provably of components that were left out of the surface does not count
+  /// (LeftOutParts). The surface must outlive this. Throws Interrupted.
+  BlockProof(ExtractedSurface& surface, double bound_mm, const Pace& pace);
 
-  std::uint32_t cells() const override { return static_cast<std::uint32_t>(cells_.size()); }
+  std::uint32_t cells() const override {
+    return static_cast<std::uint32_t>(surface_.cells().size());
+  }
   std::uint32_t vertex_of(std::uint32_t cell) const override {
-    return surface_.triangles[cells_[cell].first][0];
+    return surface_.mesh().triangles[surface_.cells()[cell].first][0];
   }
   bool is_near(std::uint32_t cell, mesh::NearTriangles& mesh) const override;
   void ask_triangles(std::span<const mesh::Corners> triangles,
                      std::span<std::uint8_t> is_near) const override;
 
  private:
-  /// A cell and triangles of the surface that lie in it or beside it, `count` from `first` on.
-  struct Cell {
-    std::array<float, 8> corners;
-    Vec3 low_mm;
-    double side_mm = 0.0;
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
   class CellQuestion;
-  class CellSet;
 
-  void find_cells(std::size_t begin, std::size_t end, CellSet& cells) const;
-  bool is_left_out(const Vec3& at, const Cell& cell) const;
-
-  const TriangleMesh& surface_;
-  const Clay& clay_;
-  std::optional<MeshDistance> left_out_;
+  const ExtractedSurface& surface_;
   double bound_mm_;
   double voxel_mm_;
-  std::vector<Cell> cells_;
   mutable SamplerPool samplers_;
   mutable BlockSlopes slopes_;
 };

@@ -3,13 +3,13 @@
 
 #include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
-#include "argil/engine/clay.h"
 #include "argil/mesh/certificate.h"
+
+#include "compare/extracted_surface.h"
 
 namespace argil::io {
 
-/// What measure_error says. Throws Interrupted.
-mesh::MeshError field_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                            const TriangleMesh& left_out, const Pace& pace);
+/// What measure_error says. Neither mesh is empty. Throws Interrupted.
+mesh::MeshError field_error(const TriangleMesh& mesh, ExtractedSurface& surface, const Pace& pace);
 
 }  // namespace argil::io

@@ -2,10 +2,10 @@
 #include "compare/field_to_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "argil/core/closest_on_triangle.h"
 
@@ -28,17 +28,12 @@ std::array<double, 4> mean_lines(std::size_t cell) {
 
 }  // namespace
 
-FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                         const TriangleMesh& left_out)
+FieldToMesh::FieldToMesh(const TriangleMesh& mesh, ExtractedSurface& surface)
     : mesh_(mesh),
-      surface_(surface),
-      clay_(clay),
-      is_surface_(mesh.triangles == surface.triangles),
-      voxel_mm_(clay.options().voxel_mm) {
-  if (!left_out.triangles.empty()) {
-    left_out_.emplace(left_out.positions, left_out.triangles);
-    left_out_box_ = bounds(left_out);
-  }
+      extracted_(surface),
+      surface_(surface.mesh()),
+      is_surface_(mesh.triangles == surface.mesh().triangles),
+      voxel_mm_(surface.voxel_mm()) {
   if (is_surface_) {
     runs_.emplace(mesh);
   } else {
@@ -46,64 +41,9 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, 
   }
 }
 
-namespace {
-
-/// Whether a point, in sides of a cell from its low corner, lies behind one face of it and phi = 0
-/// passes through that, so that it does through the cell behind.
-bool lies_in_crossed_neighbour(const Vec3& at, const FieldCell& cell) {
-  int beyond = 0;
-  std::size_t across = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (at[axis] >= -2.0 * kInwardVoxels && at[axis] <= 1.0 + 2.0 * kInwardVoxels) continue;
-    ++beyond;
-    across = axis;
-  }
-  if (beyond != 1) return false;
-  const std::size_t step = std::size_t{4} >> across;
-  int inside = 0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    const bool is_high = (corner & step) != 0;
-    if (is_high == (at[across] > 0.5) && cell.corners[corner] < 0.0F) ++inside;
-  }
-  return inside != 0 && inside != 4;
-}
-
-}  // namespace
-
-/// The cell of triangle `t` and of those that follow it in the same; no side where phi has no cell.
-FieldToMesh::Cell FieldToMesh::cell_of(std::size_t t, FieldSampler& field) const {
-  Cell cell{cell_of_triangle(mesh::corners_of(surface_, t), voxel_mm_, field), t, t + 1};
-  if (cell.side_mm == 0.0) return cell;
-  const auto is_within = [&](const mesh::Corners& c) {
-    const Vec3 at = cell.field.per_mm * (mesh::middle(c) - cell.low_mm);
-    const double low = std::min({at.x, at.y, at.z});
-    const double high = std::max({at.x, at.y, at.z});
-    // Where it is not near a face it is in this cell or in none near.
-    constexpr double kNear = 2.0 * kInwardVoxels;
-    if (low < -kBesideCell || high > 1.0 + kBesideCell) return false;
-    if (low > kNear && high < 1.0 - kNear) return true;
-    if (lies_in_crossed_neighbour(at, cell.field)) return false;
-    return cell.is(cell_of_triangle(c, voxel_mm_, field));
-  };
-  while (cell.last < surface_.triangles.size() &&
-         is_within(mesh::corners_of(surface_, cell.last))) {
-    ++cell.last;
-  }
-  return cell;
-}
-
-/// Triangles of one cell follow one another in an extracted surface.
-template <class Use>
-void FieldToMesh::for_each_cell(std::size_t begin, std::size_t end, const Use& use) const {
-  FieldSampler field(clay_);
-  // A cell that begins before this block belongs to that before.
-  assert(begin <= end && end <= surface_.triangles.size());
-  std::size_t t = begin == 0 ? 0 : cell_of(begin - 1, field).last;
-  while (t < end) {
-    const Cell cell = cell_of(t, field);
-    if (cell.side_mm > 0.0) use(cell);
-    t = cell.last;
-  }
+FieldToMesh::Cell FieldToMesh::cell(std::uint32_t number) const {
+  const SurfaceCell& cell = extracted_.cells()[number];
+  return {number, cell.low_mm(voxel_mm_), cell.side_mm(voxel_mm_), Trilinear(cell.corners)};
 }
 
 /// How far the nearest point of the mesh is, or one nearer than `enough`. Where the mesh is the
@@ -115,25 +55,18 @@ FieldToMesh::Sample FieldToMesh::sample_at(const Vec3& at, const Cell& cell, std
     return {at, found.distance, found.triangle};
   }
   TriangleRuns::Closest known{std::numeric_limits<double>::infinity(), kNoTriangle};
-  for (std::size_t t = cell.first; t < cell.last; ++t) {
+  const SurfaceCell& in = extracted_.cells()[cell.number];
+  for (std::uint32_t t = in.first; t < in.first + in.count; ++t) {
     const auto& [a, b, c] = mesh::corners_of(mesh_, t);
     const double distance = length(at - closest_on_triangle(at, a, b, c));
-    if (distance < known.distance) known = {distance, static_cast<std::uint32_t>(t)};
+    if (distance < known.distance) known = {distance, t};
   }
   if (known.distance > enough) known = runs_->closest(at, known);
   return {at, known.distance, known.triangle};
 }
 
-/// Whether a point is one of the parts left out, of which a cell may have some too.
-bool FieldToMesh::is_left_out(const Vec3& at, const Cell& cell) const {
-  if (!left_out_) return false;
-  double own = 2.0 * cell.side_mm;
-  if (!left_out_box_.meets({at, at}, own)) return false;
-  for (std::size_t t = cell.first; t < cell.last; ++t) {
-    const auto& [a, b, c] = mesh::corners_of(surface_, t);
-    own = std::min(own, length(at - closest_on_triangle(at, a, b, c)));
-  }
-  return left_out_->closest(at, own).triangle != kNoTriangle;
+bool FieldToMesh::is_left_out(const Vec3& fraction, const Cell& cell) const {
+  return extracted_.is_left_out(cell.number, fraction, 0.0);
 }
 
 /// Where phi = 0 near a vertex of the surface, which lies on a side of a cell but for rounding and
@@ -151,7 +84,7 @@ FieldToMesh::Sample FieldToMesh::sample_at_vertex(std::uint32_t v, std::uint32_t
 void FieldToMesh::measure_vertices(const Pace& pace) {
   at_vertex_.resize(surface_.positions.size());
   in_blocks(at_vertex_.size(), pace, [&](std::size_t begin, std::size_t end) {
-    FieldSampler field(clay_);
+    FieldSampler field(extracted_.clay());
     std::uint32_t hint = kNoTriangle;
     for (std::size_t v = begin; v < end; ++v) {
       at_vertex_[v] = sample_at_vertex(static_cast<std::uint32_t>(v), hint, field);
@@ -228,30 +161,59 @@ double most_bulge(const std::array<float, 8>& corners) noexcept {
 
 }  // namespace
 
+/// Whether its triangles have a vertex for each edge that phi = 0 passes through.
+bool FieldToMesh::has_all_vertices(const SurfaceCell& cell) const {
+  if (cell.is_empty) return false;
+  int cut_edges = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (const std::size_t step : {4U, 2U, 1U}) {
+      if ((corner & step) != 0) continue;
+      cut_edges += (cell.corners[corner] < 0.0F) != (cell.corners[corner | step] < 0.0F) ? 1 : 0;
+    }
+  }
+  std::array<std::uint32_t, 12> met{};
+  int vertices = 0;
+  for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
+    for (const std::uint32_t v : surface_.triangles[t]) {
+      if (vertices == cut_edges) return true;
+      const auto end = met.begin() + vertices;
+      if (std::find(met.begin(), end, v) == end) met[static_cast<std::size_t>(vertices++)] = v;
+    }
+  }
+  return vertices == cut_edges;
+}
+
 double FieldToMesh::bound_at_vertices(const Cell& cell) const {
+  const SurfaceCell& in = extracted_.cells()[cell.number];
   std::vector<Sample> points;
   double most = 0.0;
-  for (std::size_t t = cell.first; t < cell.last; ++t) {
-    for (const std::uint32_t v : surface_.triangles[t]) {
-      most = std::max(most, at_vertex_[v].distance);
-      if (!is_surface_) points.push_back(at_vertex_[v]);
-    }
+  const auto add = [&](const Sample& sample) {
+    most = std::max(most, sample.distance);
+    if (!is_surface_) points.push_back(sample);
+  };
+  for (std::uint32_t t = in.first; t < in.first + in.count; ++t) {
+    for (const std::uint32_t v : surface_.triangles[t]) add(at_vertex_[v]);
+  }
+  if (!has_all_vertices(in)) {
+    const std::uint32_t hint = at_vertex_[surface_.triangles[in.first][0]].nearest;
+    for_each_zero(cell.phi, {}, 1.0, kSides, [&](const FieldZero& zero) {
+      if (!is_left_out(zero.fraction, cell))
+        add(sample_at(cell.at(zero.fraction), cell, hint, 0.0));
+    });
   }
   return is_surface_ ? most : bound_of(points);
 }
 
 /// What a cell has of the means.
-void FieldToMesh::add_cell(const Cell& cell, std::size_t number, std::uint32_t& hint,
+void FieldToMesh::add_cell(const Cell& cell, std::size_t turn, std::uint32_t& hint,
                            DistanceSums& sums) const {
-  const Trilinear phi(cell.field.corners);
   const double spacing = 0.25 * cell.side_mm;
-  for_each_zero(phi, {}, 1.0, mean_lines(number), [&](const FieldZero& zero) {
-    const Vec3 at = cell.low_mm + cell.side_mm * zero.fraction;
-    if (is_left_out(at, cell)) return;
+  for_each_zero(cell.phi, {}, 1.0, mean_lines(turn), [&](const FieldZero& zero) {
+    if (is_left_out(zero.fraction, cell)) return;
     // Neighbours need not be searched for less: it is neither the greatest distance nor, at a
     // twentieth of a cell, much of the mean.
     const double enough = std::min(sums.max, 0.05 * cell.side_mm);
-    const Sample found = sample_at(at, cell, hint, enough);
+    const Sample found = sample_at(cell.at(zero.fraction), cell, hint, enough);
     hint = found.nearest;
     const Vec3& n = zero.normal;
     const double shown = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
@@ -264,20 +226,20 @@ void FieldToMesh::add_cell(const Cell& cell, std::size_t number, std::uint32_t& 
 /// they need.
 DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
   assert(at_vertex_.size() == surface_.positions.size());
-  constexpr std::size_t kEnough = 100'000;
-  const std::size_t count = surface_.triangles.size();
+  constexpr std::size_t kEnough = 50'000;
+  const std::size_t count = extracted_.cells().size();
   const std::size_t stride = std::max<std::size_t>(1, count / kEnough);
   bound_.assign(count, 0.0F);
   std::vector<DistanceSums> blocks(block_count(count));
   in_blocks(count, pace, [&](std::size_t begin, std::size_t end) {
     DistanceSums& sums = blocks[begin / kDistanceBlock];
-    std::size_t number = 0;
     std::uint32_t hint = kNoTriangle;
-    for_each_cell(begin, end, [&](const Cell& cell) {
-      const double bulge = most_bulge(cell.field.corners) * cell.side_mm;
-      bound_[cell.first] = static_cast<float>(bound_at_vertices(cell) + bulge);
-      if (++number % stride == 0) add_cell(cell, number / stride, hint, sums);
-    });
+    for (std::size_t c = begin; c < end; ++c) {
+      const Cell at = cell(static_cast<std::uint32_t>(c));
+      const double bulge = most_bulge(extracted_.cells()[c].corners) * at.side_mm;
+      bound_[c] = rounded_up(bound_at_vertices(at) + bulge);
+      if (c % stride == 0) add_cell(at, c / stride, hint, sums);
+    }
   });
   DistanceSums total;
   for (const DistanceSums& sums : blocks) total.add(sums);
@@ -287,54 +249,52 @@ DistanceSums FieldToMesh::measure_cells(const Pace& pace) {
   return total;
 }
 
-/// The greatest distance in the cell of which this is the first triangle, if it exceeds `found`.
-double FieldToMesh::greatest_in(std::uint32_t first, double found, FieldSampler& field) const {
-  const Cell cell = cell_of(first, field);
-  const Trilinear phi(cell.field.corners);
+/// The greatest distance in a cell, if it exceeds `found`.
+double FieldToMesh::greatest_in(std::uint32_t number, double found) const {
+  const Cell at = cell(number);
   Bulge bulge;
-  for_each_zero(phi, {}, 1.0, kSides, [&](const FieldZero& zero) { bulge.add(zero.normal); });
-  if (bound_at_vertices(cell) + bulge.fraction() * cell.side_mm <= found) return found;
-  return refined(cell, phi, {}, 1.0, found);
+  for_each_zero(at.phi, {}, 1.0, kSides, [&](const FieldZero& zero) { bulge.add(zero.normal); });
+  if (bound_at_vertices(at) + bulge.fraction() * at.side_mm <= found) return found;
+  return refined(at, {}, 1.0, found);
 }
 
 /// The greatest distance in the box of the cell from `low` to `low + side`, as fractions of the
 /// cell.
-double FieldToMesh::refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
-                            double found) const {
+double FieldToMesh::refined(const Cell& cell, const Vec3& low, double side, double found) const {
   // What can then be missed is 0.012 of a cell, kMostBulge of such a side.
   constexpr double kLeastSide = 1.0 / 64.0;
   std::vector<Sample> points;
   Bulge bulge;
-  const std::uint32_t hint = at_vertex_[surface_.triangles[cell.first][0]].nearest;
+  const std::uint32_t hint =
+      at_vertex_[surface_.triangles[extracted_.cells()[cell.number].first][0]].nearest;
   const auto add = [&](const Vec3& fraction) {
-    const Vec3 at = cell.low_mm + cell.side_mm * fraction;
-    if (is_left_out(at, cell)) return false;
-    points.push_back(sample_at(at, cell, hint, found));
+    if (is_left_out(fraction, cell)) return false;
+    points.push_back(sample_at(cell.at(fraction), cell, hint, found));
     return true;
   };
-  for_each_zero(phi, low, side, kSides, [&](const FieldZero& zero) {
+  for_each_zero(cell.phi, low, side, kSides, [&](const FieldZero& zero) {
     if (add(zero.fraction)) bulge.add(zero.normal);
   });
   if (points.empty()) return found;
-  for_each_zero_corner(phi, low, side, add);
+  for_each_zero_corner(cell.phi, low, side, add);
   for (const Sample& p : points) found = std::max(found, p.distance);
   const double margin = bulge.fraction() * side * cell.side_mm;
   if (side <= kLeastSide || bound_of(points) + margin <= found) return found;
   const double half = 0.5 * side;
   for (int octant = 0; octant < 8; ++octant) {
     const Vec3 shift{half * (octant >> 2), half * (octant >> 1 & 1), half * (octant & 1)};
-    found = refined(cell, phi, low + shift, half, found);
+    found = refined(cell, low + shift, half, found);
   }
   return found;
 }
 
 mesh::DistanceSummary FieldToMesh::measure(const Pace& pace) {
-  measure_vertices(pace.part(0.0, 0.3));
-  const DistanceSums found_first = measure_cells(pace.part(0.3, 0.7));
+  extracted_.prepare(pace.part(0.0, 0.2));
+  measure_vertices(pace.part(0.2, 0.4));
+  const DistanceSums found_first = measure_cells(pace.part(0.4, 0.75));
   mesh::DistanceSummary summary = found_first.summary();
-  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.7, 1.0), [&] {
-    return [this, field = std::make_unique<FieldSampler>(clay_)](
-               std::uint32_t first, double found) { return greatest_in(first, found, *field); };
+  summary.max_mm = greatest_by_bound(bound_, found_first.max, pace.part(0.75, 1.0), [&] {
+    return [this](std::uint32_t number, double found) { return greatest_in(number, found); };
   });
   return summary;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -11,29 +10,30 @@
 #include "argil/mesh/triangle_geometry.h"
 
 #include "compare/distance_sums.h"
+#include "compare/extracted_surface.h"
 #include "compare/field_error.h"
 #include "compare/field_zeros.h"
-#include "compare/surface_cells.h"
 #include "compare/triangle_runs.h"
 
 namespace argil::io {
 
 /// Distance of the points with phi = 0 from a mesh.
 ///
-/// The points are those of the cells that the extracted surface stands for, on lines along the
-/// axes: a line passes through an area A with normal n in A |n_axis| / spacing^2 points, so that
-/// each point of the lines along all three stands for spacing^2 / (|n_x| + |n_y| + |n_z|), also at
-/// sharp edges, where paths from a triangle along the gradient would not reach.
+/// The points are those of surface_cells(), on lines along the axes: a line passes through an area
+/// A with normal n in A |n_axis| / spacing^2 points, so that each point of the lines along all
+/// three stands for spacing^2 / (|n_x| + |n_y| + |n_z|), also at sharp edges, where paths from a
+/// triangle along the gradient would not reach.
 ///
-/// For the greatest distance every cell has a bound: that of the extracted vertices in it from the
-/// planes of the triangles nearest to them, and how much phi = 0 can bulge between them by the
-/// angles between its normals, first by those that its gradient can have at all, then by those at
-/// its edges. Where that exceeds the greatest distance found so far the cell is split in eight, and
-/// so on. Whether a bound is kept is another question: BlockProof.
+/// For the greatest distance every cell has a bound: that of the extracted vertices in it, or where
+/// some are not known of phi = 0 on its edges, from the planes of the triangles nearest to them,
+/// and how much phi = 0 can bulge between them by the angles between its normals, first by those
+/// that its gradient can have at all, then by those at its edges. Where that exceeds the greatest
+/// distance found so far the cell is split in eight, and so on. Whether a bound is kept is another
+/// question: BlockProof.
 class FieldToMesh {
  public:
-  FieldToMesh(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-              const TriangleMesh& left_out);
+  /// Both must outlive this.
+  FieldToMesh(const TriangleMesh& mesh, ExtractedSurface& surface);
 
   mesh::DistanceSummary measure(const Pace& pace);
 
@@ -43,39 +43,38 @@ class FieldToMesh {
     double distance = 0.0;
     std::uint32_t nearest = kNoTriangle;
   };
-  /// A cell and the triangles of the surface that lie in it, `first` to before `last`.
-  struct Cell : PlacedCell {
-    std::size_t first = 0;
-    std::size_t last = 0;
+  /// Where a cell lies.
+  struct Cell {
+    std::uint32_t number = 0;
+    Vec3 low_mm;
+    double side_mm = 0.0;
+    Trilinear phi;
+
+    Vec3 at(const Vec3& fraction) const noexcept { return low_mm + side_mm * fraction; }
   };
 
-  Cell cell_of(std::size_t t, FieldSampler& field) const;
-  template <class Use>
-  void for_each_cell(std::size_t begin, std::size_t end, const Use& use) const;
+  Cell cell(std::uint32_t number) const;
   Sample sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint, double enough) const;
-  bool is_left_out(const Vec3& at, const Cell& cell) const;
+  bool is_left_out(const Vec3& fraction, const Cell& cell) const;
+  bool has_all_vertices(const SurfaceCell& cell) const;
   Sample sample_at_vertex(std::uint32_t v, std::uint32_t hint, FieldSampler& field) const;
   void measure_vertices(const Pace& pace);
   DistanceSums measure_cells(const Pace& pace);
-  void add_cell(const Cell& cell, std::size_t number, std::uint32_t& hint,
-                DistanceSums& sums) const;
+  void add_cell(const Cell& cell, std::size_t turn, std::uint32_t& hint, DistanceSums& sums) const;
   double bound_of(const std::vector<Sample>& points) const;
   double bound_at_vertices(const Cell& cell) const;
-  double greatest_in(std::uint32_t first, double found, FieldSampler& field) const;
-  double refined(const Cell& cell, const Trilinear& phi, const Vec3& low, double side,
-                 double found) const;
+  double greatest_in(std::uint32_t number, double found) const;
+  double refined(const Cell& cell, const Vec3& low, double side, double found) const;
 
   const TriangleMesh& mesh_;
+  ExtractedSurface& extracted_;
   const TriangleMesh& surface_;
-  const Clay& clay_;
-  std::optional<MeshDistance> left_out_;
-  Box3 left_out_box_;
   bool is_surface_;  ///< but for rounding: then the nearest triangle is in or beside the cell
   std::optional<TriangleRuns> runs_;     ///< where it is
   std::optional<MeshDistance> nearest_;  ///< where it is not
   double voxel_mm_;
   std::vector<Sample> at_vertex_;
-  std::vector<float> bound_;  ///< of the cell whose first triangle this is, without the tight bulge
+  std::vector<float> bound_;  ///< of each cell, without the tight bulge
 };
 
 }  // namespace argil::io

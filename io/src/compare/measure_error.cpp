@@ -11,15 +11,15 @@
 
 namespace argil::io {
 
-mesh::MeshError field_error(const TriangleMesh& mesh, const TriangleMesh& surface, const Clay& clay,
-                            const TriangleMesh& left_out, const Pace& pace) {
-  assert(!mesh.triangles.empty() && !surface.triangles.empty());
+mesh::MeshError field_error(const TriangleMesh& mesh, ExtractedSurface& surface, const Pace& pace) {
+  assert(!mesh.triangles.empty() && !surface.mesh().triangles.empty());
   mesh::MeshError error;
   // An extracted surface was not fitted to samples; of a decimated one, other points than those of
   // the fit are measured.
-  const int least_splits = mesh.triangles == surface.triangles ? 2 : 5;
-  error.mesh_to_field = MeshToField(mesh, clay, least_splits).measure(pace.part(0.0, 0.4));
-  error.field_to_mesh = FieldToMesh(mesh, surface, clay, left_out).measure(pace.part(0.4, 1.0));
+  const int least_splits = mesh.triangles == surface.mesh().triangles ? 2 : 5;
+  error.mesh_to_field =
+      MeshToField(mesh, surface.clay(), least_splits).measure(pace.part(0.0, 0.4));
+  error.field_to_mesh = FieldToMesh(mesh, surface).measure(pace.part(0.4, 1.0));
   return error;
 }
 
@@ -30,7 +30,8 @@ Result<mesh::MeshError> measure_error(const TriangleMesh& mesh, const TriangleMe
     if (mesh.triangles.empty() || surface.triangles.empty()) {
       return Error{ErrorKind::bad_input, "there are no triangles to measure; give a mesh"};
     }
-    return field_error(mesh, surface, clay, left_out, Pace(progress, "measure"));
+    ExtractedSurface extracted(surface, clay, left_out);
+    return field_error(mesh, extracted, Pace(progress, "measure"));
   });
 }
 

@@ -50,7 +50,7 @@ DistanceSums MeshToField::measure_triangles(const Pace& pace) {
       });
       blocks[begin / kDistanceBlock].max =
           std::max(blocks[begin / kDistanceBlock].max, range.worst());
-      bound_[t] = static_cast<float>(range.bound());
+      bound_[t] = rounded_up(range.bound());
     }
   });
   // In the order of the blocks, so that the sum does not depend on threads.

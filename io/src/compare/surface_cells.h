@@ -18,12 +18,6 @@ struct PlacedCell {
   FieldCell field;
   Vec3 low_mm;
   double side_mm = 0.0;
-
-  bool is(const PlacedCell& other) const noexcept {
-    const Vec3 apart = other.low_mm - low_mm;
-    return field.level == other.field.level &&
-           std::max({std::abs(apart.x), std::abs(apart.y), std::abs(apart.z)}) < 0.5 * side_mm;
-  }
 };
 
 inline PlacedCell placed_cell_at(const Vec3& at, FieldSampler& field) {
@@ -80,23 +74,6 @@ void for_each_crossed_beside(const Vec3& at, const PlacedCell& own, FieldSampler
     const PlacedCell beside = placed_cell_at(to, field);
     if (beside.side_mm > 0.0 && is_crossed(beside.field)) use(beside, distance);
   }
-}
-
-/// The cell with the part of phi = 0 that a triangle of an extracted surface stands for: the one
-/// that it lies in, or where phi = 0 does not pass through that the nearest beside it, as in the
-/// faces of a block that are lattice planes.
-inline PlacedCell cell_of_triangle(const mesh::Corners& c, double voxel_mm, FieldSampler& field) {
-  const Vec3 at = inward_of(c, voxel_mm);
-  const PlacedCell own = placed_cell_at(at, field);
-  if (own.side_mm == 0.0 || is_crossed(own.field)) return own;
-  PlacedCell nearest = own;
-  double least = 2.0 * kBesideCell;
-  for_each_crossed_beside(at, own, field, [&](const PlacedCell& cell, double distance) {
-    if (distance >= least) return;
-    least = distance;
-    nearest = cell;
-  });
-  return nearest;
 }
 
 }  // namespace argil::io

@@ -173,7 +173,7 @@ GreatestDistance greatest_distance(const TriangleMesh& from,
   if (first_most <= found) return {found, found};
   std::vector<float> bounds;
   for (const double of : most) {
-    bounds.push_back(std::nextafter(static_cast<float>(of - slack_mm), 3e38F));
+    bounds.push_back(rounded_up(of - slack_mm));
   }
   StopHeard stop(pace);
   const Progress tell = [&](std::string_view, double fraction) {

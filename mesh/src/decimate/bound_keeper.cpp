@@ -11,13 +11,22 @@
 #include "argil/mesh/rounding.h"
 #include "argil/mesh/triangle_geometry.h"
 
+#include "decimate/cost_queue.h"
 #include "decimate/fit_vertices.h"
 
 namespace argil::mesh {
 namespace {
 
-/// How often a block tries before it is left as it was.
-constexpr int kMostBlockTries = 3;
+/// After so many nothing more is taken back.
+constexpr int kMostRounds = 10;
+/// Around what failed for the first time, in voxels, and how often it is doubled.
+constexpr double kFirstRadius = 0.5;
+constexpr int kMostDoublings = 5;
+
+void sort_unique(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
 
 /// Runs `work(begin, end, found)` over chunks of fixed size, and puts together what they found in
 /// their order.
@@ -48,31 +57,30 @@ Corners corners_at(const CollapseMesh& mesh, HalfEdge h) {
 }  // namespace
 
 BoundKeeper::BoundKeeper(CollapseState& state, const TriangleMesh& surface,
-                         const DecimationTarget& target, const BoundProof& proof)
+                         const DecimationTarget& target, const BoundProof& proof,
+                         ThreadProbes& probes)
     : state_(state),
       surface_(surface),
       target_(target),
       proof_(proof),
+      probes_(probes),
       cells_(proof.cells()),
       is_triangle_proven_(surface.triangles.size(), 0),
-      block_of_(surface.positions.size(), 0) {
-  state.mesh.shorten_ways();
+      before_(state.mesh),
+      quadrics_before_(state.quadrics) {
   for (std::uint32_t c = 0; c < cells_.size(); ++c) cells_[c].near = proof.vertex_of(c);
+}
+
+Balls BoundKeeper::balls_around(const Faults& faults, double radius_mm) {
+  std::vector<BadPoint> points;
+  for (const Fault& fault : faults) points.push_back({fault.at_mm, 0.0});
+  return {std::move(points), radius_mm};
 }
 
 bool BoundKeeper::has_moved(HalfEdge triangle) const {
   const auto vertices = vertices_of(state_.mesh, triangle);
   return std::any_of(vertices.begin(), vertices.end(),
                      [&](std::uint32_t v) { return state_.moved[v] != 0; });
-}
-
-/// What cannot have changed is proven at the end.
-bool BoundKeeper::triangle_needs_proof(HalfEdge h) const {
-  if (has_moved(h)) return true;
-  if (is_triangle_proven_[triangle_of(h)] != 0) return false;
-  const auto vertices = vertices_of(state_.mesh, h);
-  return std::any_of(vertices.begin(), vertices.end(),
-                     [&](std::uint32_t v) { return state_.stays[v] == 0; });
 }
 
 bool BoundKeeper::needs_proof(const Cell& cell) const {
@@ -82,51 +90,33 @@ bool BoundKeeper::needs_proof(const Cell& cell) const {
   });
 }
 
-void BoundKeeper::begin(const std::vector<VertexBlock>& blocks) {
-  blocks_ = &blocks;
-  for (std::uint32_t b = 0; b < blocks.size(); ++b) {
-    for (const std::uint32_t v : blocks[b]) block_of_[v] = b;
-  }
-  before_ = state_.mesh;
-  quadrics_before_ = state_.quadrics;
-  was_triangle_proven_ = is_triangle_proven_;
-  has_changed_.assign(blocks.size(), 1);
-  tries_.assign(blocks.size(), 0);
-  for (Cell& cell : cells_) {
-    cell.near = cell.near_before = state_.mesh.became(cell.near);
-    cell.was_proven = cell.is_proven;
-  }
-}
-
 /// Only what has moved moves.
 void BoundKeeper::fit() {
   mesh_ = state_.mesh.mesh(kept_);
   std::vector<bool> fixed;
   for (const std::uint32_t v : kept_) {
-    fixed.push_back(state_.moved[v] == 0 || state_.stays[v] != 0);
+    fixed.push_back(state_.moved[v] == 0);
   }
   fit_vertices(mesh_, target_, fixed);
   mesh_ = rounded_to_float(std::move(mesh_));
   for (std::size_t i = 0; i < kept_.size(); ++i) state_.mesh.move(kept_[i], mesh_.positions[i]);
 }
 
-/// Looks from where it was found last, and where that fails from where it was before and from what
-/// became of its own surface.
+/// Looks from where it was found last, and where that fails from what became of its own surface.
 void BoundKeeper::prove_cell(std::uint32_t c, TriangleWalk& walk, Faults& faults) {
   Cell& cell = cells_[c];
   const CollapseMesh& mesh = state_.mesh;
   const std::uint32_t vertex = proof_.vertex_of(c);
   cell.is_proven = false;
-  for (const std::uint32_t from : {cell.near, cell.near_before, vertex}) {
+  for (const std::uint32_t from : {cell.near, vertex}) {
     walk.begin(mesh.became(from));
     cell.is_proven = proof_.is_near(c, walk);
     if (cell.is_proven) break;
   }
   if (!cell.is_proven) {
     const auto [u, v, w] = vertices_of(mesh, walk.triangle());
-    faults.push_back({{surface_.positions[vertex], target_.voxel_mm()},
-                      {u, v, w, mesh.became(vertex), mesh.became(cell.near), cell.near_before},
-                      cell.was_proven});
+    faults.push_back(
+        {surface_.positions[vertex], {u, v, w, mesh.became(vertex), mesh.became(cell.near), u}, c});
     return;
   }
   cell.near = mesh.from(walk.triangle());
@@ -142,12 +132,11 @@ void BoundKeeper::prove_cell(std::uint32_t c, TriangleWalk& walk, Faults& faults
   }
 }
 
-template <class Which>
-void BoundKeeper::prove_cells(const Which& which, Faults& faults, const Pace& pace) {
+void BoundKeeper::prove_cells(Faults& faults, const Pace& pace) {
   in_chunks(cells_.size(), faults, pace, [&](std::size_t begin, std::size_t end, Faults& found) {
     TriangleWalk walk(state_.mesh);
     for (std::size_t c = begin; c < end; ++c) {
-      if (which(cells_[c])) prove_cell(static_cast<std::uint32_t>(c), walk, found);
+      if (needs_proof(cells_[c])) prove_cell(static_cast<std::uint32_t>(c), walk, found);
     }
   });
 }
@@ -156,7 +145,8 @@ void BoundKeeper::prove_triangles(Faults& faults, const Pace& pace) {
   const CollapseMesh& mesh = state_.mesh;
   std::vector<HalfEdge> triangles;
   for (HalfEdge h = 0; h < mesh.half_edges(); h += 3) {
-    if (!mesh.is_gone(h) && triangle_needs_proof(h)) triangles.push_back(h);
+    if (mesh.is_gone(h)) continue;
+    if (is_triangle_proven_[triangle_of(h)] == 0 || has_moved(h)) triangles.push_back(h);
   }
   in_chunks(triangles.size(), faults, pace, [&](std::size_t begin, std::size_t end, Faults& found) {
     std::vector<Corners> corners;
@@ -171,38 +161,44 @@ void BoundKeeper::prove_triangles(Faults& faults, const Pace& pace) {
       if (is_near[i - begin] != 0) continue;
       const Corners& at = corners[i - begin];
       const auto [u, v, w] = vertices_of(mesh, h);
-      found.push_back({{middle(at), longest_side(at)},
-                       {u, v, w, u, v, w},
-                       was_triangle_proven_[triangle_of(h)] != 0});
+      found.push_back({middle(at), {u, v, w, u, v, w}, kNothing, {h, h}});
     }
   });
 }
 
 void BoundKeeper::find_folds(Faults& faults, const Pace& pace) {
   mesh_ = state_.mesh.mesh(kept_);
+  std::vector<HalfEdge> triangles;
+  for (HalfEdge h = 0; h < state_.mesh.half_edges(); h += 3) {
+    if (!state_.mesh.is_gone(h)) triangles.push_back(h);
+  }
+  assert(triangles.size() == mesh_.triangles.size());
+  folds_ = false;
   const auto add = [&](std::uint32_t s, std::uint32_t t) {
     const Corners at = corners_of(mesh_, s);
-    Fault fault{{middle(at), longest_side(at)}, {}, false, true};
+    Fault fault{middle(at), {}, kNothing, {triangles[s], triangles[t]}, true};
     for (std::size_t k = 0; k < 3; ++k) {
       fault.vertices[k] = kept_[mesh_.triangles[s][k]];
       fault.vertices[k + 3] = kept_[mesh_.triangles[t][k]];
     }
-    faults.push_back(fault);
+    if (was_there_before(fault)) {
+      folds_ = true;
+    } else {
+      faults.push_back(fault);
+    }
   };
   const std::vector<std::uint32_t> flat = degenerate_triangles(mesh_);
   for (const std::uint32_t t : flat) add(t, t);
-  const std::vector<TrianglePair> pairs = self_intersections(mesh_, flat, pace);
-  for (const auto& [s, t] : pairs) add(s, t);
-  folds_ = !flat.empty() || !pairs.empty();
+  for (const auto& [s, t] : self_intersections(mesh_, flat, pace)) add(s, t);
 }
 
 /// Looks at all that depends on what has moved.
 BoundKeeper::Faults BoundKeeper::find_faults(const Pace& pace) {
   Faults faults;
-  prove_cells([&](const Cell& cell) { return needs_proof(cell); }, faults, pace);
-  prove_triangles(faults, pace);
+  prove_cells(faults, pace.part(0.0, 0.7));
+  prove_triangles(faults, pace.part(0.7, 0.9));
   std::fill(state_.moved.begin(), state_.moved.end(), 0);
-  find_folds(faults, pace);
+  find_folds(faults, pace.part(0.9, 1.0));
   return faults;
 }
 
@@ -211,7 +207,7 @@ bool BoundKeeper::take_back_fit(const Faults& faults) {
   bool has_any = false;
   for (const Fault& fault : faults) {
     for (const std::uint32_t v : fault.vertices) {
-      if (state_.stays[v] != 0 || state_.mesh.position(v) == unfitted_[v]) continue;
+      if (state_.mesh.position(v) == unfitted_[v]) continue;
       state_.mesh.move(v, unfitted_[v]);
       state_.moved[v] = 1;
       has_any = true;
@@ -220,45 +216,32 @@ bool BoundKeeper::take_back_fit(const Faults& faults) {
   return has_any;
 }
 
-/// The blocks that are to go back. Where only blocks are near that are as they were, and all was
-/// good with these, it may be any.
-std::vector<std::uint8_t> BoundKeeper::blamed(const Faults& faults) const {
-  std::vector<std::uint8_t> bad(blocks_->size(), 0);
-  for (const Fault& fault : faults) {
-    bool is_blamed = false;
-    for (const std::uint32_t v : fault.vertices) {
-      if (has_changed_[block_of_[v]] == 0) continue;
-      bad[block_of_[v]] = 1;
-      is_blamed = true;
-    }
-    if (!is_blamed && fault.was_good) return has_changed_;
-  }
-  return bad;
+bool BoundKeeper::is_as_before(HalfEdge triangle) const {
+  return !before_.is_gone(triangle) &&
+         corners_at(state_.mesh, triangle) == corners_at(before_, triangle);
 }
 
-void BoundKeeper::restore(const VertexBlock& block) {
-  for (const std::uint32_t v : block) {
-    if (state_.stays[v] != 0) continue;
-    state_.mesh.restore(v, before_);
-    state_.quadrics[v] = quadrics_before_[v];
-    state_.moved[v] = 1;
-    unfitted_[v] = before_.position(v);
-    const HalfEdge first = before_.any_from(v);
-    HalfEdge h = first;
-    do {
-      is_triangle_proven_[triangle_of(h)] = was_triangle_proven_[triangle_of(h)];
-      h = before_.next_around(h);
-    } while (h != first);
+/// Whether no step is at fault: what nothing was done to is wrong by itself, and so is a cell that
+/// is not proven with what was there before either.
+bool BoundKeeper::was_there_before(const Fault& fault) const {
+  if (fault.cell != kNothing) {
+    TriangleWalk walk(before_);
+    walk.begin(before_.became(proof_.vertex_of(fault.cell)));
+    return !proof_.is_near(fault.cell, walk);
   }
+  return is_as_before(fault.triangles[0]) && is_as_before(fault.triangles[1]);
 }
 
-/// Of the vertices that were within balls around the faults, and of those next to them. Where the
-/// surface folds no smaller reach helps: there it stays.
-void BoundKeeper::raise_caution(const Faults& faults, double widen_mm) {
+bool BoundKeeper::was_there_before(const Faults& faults) const {
+  return std::any_of(faults.begin(), faults.end(),
+                     [&](const Fault& fault) { return was_there_before(fault); });
+}
+
+/// Of the vertices that were around the faults, and of those next to them. Where the surface folds
+/// no smaller reach helps: there it stays.
+void BoundKeeper::raise_caution(const Faults& faults, double radius_mm) {
   std::vector<std::uint32_t> raised;
-  std::vector<BadPoint> points;
   for (const Fault& fault : faults) {
-    points.push_back(fault.point);
     for (const std::uint32_t v : fault.vertices) {
       raised.push_back(v);
       const HalfEdge first = before_.any_from(v);
@@ -270,59 +253,76 @@ void BoundKeeper::raise_caution(const Faults& faults, double widen_mm) {
       if (fault.is_fold) state_.caution[v] = CollapseState::kStays;
     }
   }
-  const Balls balls(std::move(points), widen_mm);
-  for (std::uint32_t v = 0; v < block_of_.size(); ++v) {
+  const Balls balls = balls_around(faults, radius_mm);
+  for (std::uint32_t v = 0; v < before_.vertices(); ++v) {
     if (before_.any_from(v) != CollapseMesh::kGone && balls.hold(before_.position(v))) {
       raised.push_back(v);
     }
   }
-  std::sort(raised.begin(), raised.end());
-  raised.erase(std::unique(raised.begin(), raised.end()), raised.end());
+  sort_unique(raised);
   for (const std::uint32_t v : raised) {
     if (state_.caution[v] < CollapseState::kStays) ++state_.caution[v];
   }
 }
 
-void BoundKeeper::take_back(const std::vector<std::uint8_t>& bad, const CollapseRules& rules,
-                            std::uint16_t last) {
-  tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t b) {
-    if (bad[b] == 0) return;
-    const VertexBlock& block = (*blocks_)[b];
-    restore(block);
-    has_changed_[b] = ++tries_[b] <= kMostBlockTries ? 1 : 0;
-    if (has_changed_[b] == 0) return;
-    CollapseBlock again(state_, block, target_.probe(), rules);
-    again.advance(last, block.size());
-  });
-  most_tries_ = std::max(most_tries_, *std::max_element(tries_.begin(), tries_.end()));
+/// Vertices of the faults, and those that are around these now, become what they were before.
+void BoundKeeper::take_back(const Faults& faults, double radius_mm, const CollapseRules& rules) {
+  std::vector<std::uint8_t> goes_back(state_.mesh.vertices(), 0);
+  for (const Fault& fault : faults) {
+    for (const std::uint32_t v : fault.vertices) goes_back[v] = 1;
+  }
+  const Balls balls = balls_around(faults, radius_mm);
+  for (const std::uint32_t v : kept_) {
+    if (balls.hold(state_.mesh.position(v))) goes_back[v] = 1;
+  }
+  const std::vector<std::uint32_t> back = state_.mesh.restore(before_, goes_back);
+  for (const std::uint32_t v : back) {
+    state_.quadrics[v] = quadrics_before_[v];
+    state_.moved[v] = 1;
+  }
+  collapse_again(back, rules);
 }
 
-std::size_t BoundKeeper::settle(const CollapseRules& rules, std::uint16_t last, bool fits,
-                                const Pace& pace) {
-  const Pace unknown = pace.part(1.0, 1.0);
+/// Only vertices that went back and their neighbours move.
+void BoundKeeper::collapse_again(const std::vector<std::uint32_t>& vertices,
+                                 const CollapseRules& rules) {
+  std::fill(state_.stays.begin(), state_.stays.end(), 1);
+  VertexBlock block = vertices;
+  for (const std::uint32_t v : vertices) {
+    const HalfEdge first = state_.mesh.any_from(v);
+    HalfEdge h = first;
+    do {
+      block.push_back(state_.mesh.to(h));
+      h = state_.mesh.next_around(h);
+    } while (h != first);
+  }
+  sort_unique(block);
+  for (const std::uint32_t v : block) state_.stays[v] = 0;
+  CollapseBlock again(state_, block, rules);
+  again.advance(CostQueue::kClasses - 1, block.size(), probes_.mine());
+}
+
+bool BoundKeeper::settle(const CollapseRules& rules, const Pace& pace) {
+  const Pace rest = pace.part(0.8, 0.8);
   for (int round = 0;; ++round) {
+    most_rounds_ = std::max(most_rounds_, round);
+    state_.mesh.shorten_ways();
     state_.mesh.round_to_float();
     unfitted_ = state_.mesh.positions();
-    if (fits) fit();
-    Faults faults = find_faults(unknown);
-    while (take_back_fit(faults)) faults = find_faults(unknown);
-    const std::vector<std::uint8_t> bad = blamed(faults);
-    if (std::find(bad.begin(), bad.end(), 1) == bad.end()) return mesh_.triangles.size();
-    raise_caution(faults, (1 << round) * target_.voxel_mm());
-    take_back(bad, rules, last);
+    fit();
+    // Most of the work is to look at everything once.
+    Faults faults = find_faults(round == 0 ? pace.part(0.0, 0.8) : rest);
+    while (take_back_fit(faults)) faults = find_faults(rest);
+    if (faults.empty()) return true;
+    // What was wrong before may be mended by steps and the fit, but not by going back once more.
+    const bool may_be_mended = round < CollapseState::kStays || !was_there_before(faults);
+    if (!may_be_mended || round == kMostRounds) return false;
+    // What is at fault may lie beside: ever wider, but only the vertices themselves at first.
+    const int doublings = std::min(round, kMostDoublings);
+    const double radius_mm = kFirstRadius * (1 << doublings) * target_.voxel_mm();
+    raise_caution(faults, radius_mm);
+    take_back(faults, round == 0 ? 0.0 : radius_mm, rules);
   }
-}
-
-/// What no block changed was not looked at.
-bool BoundKeeper::is_all_proven(const Pace& pace) {
-  for (HalfEdge h = 0; h < state_.mesh.half_edges(); h += 3) {
-    if (state_.mesh.is_gone(h) || is_triangle_proven_[triangle_of(h)] != 0) continue;
-    for (const std::uint32_t v : vertices_of(state_.mesh, h)) state_.moved[v] = 1;
-  }
-  Faults faults;
-  prove_triangles(faults, pace);
-  return faults.empty() &&
-         std::all_of(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.is_proven; });
 }
 
 }  // namespace argil::mesh

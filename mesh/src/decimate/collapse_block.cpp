@@ -20,6 +20,8 @@ namespace {
 /// With a bound, an edge that was refused more often is left alone.
 constexpr int kMostRefusals = 5;
 constexpr int kClassesOfTwo = 4;  ///< of the queue
+/// How much less far steps go where one was taken back.
+constexpr double kCautious = 0.8;
 
 }  // namespace
 
@@ -59,11 +61,10 @@ CollapseState::CollapseState(CollapseMesh made, const Box3& box, double voxel_mm
 }
 
 CollapseBlock::CollapseBlock(CollapseState& state, const VertexBlock& vertices,
-                             std::unique_ptr<DistanceProbe> field, const CollapseRules& rules)
+                             const CollapseRules& rules)
     : state_(state),
       mesh_(state.mesh),
       vertices_left_(vertices.size()),
-      field_(std::move(field)),
       rules_(rules),
       queue_(state.class_of) {
   put_all(vertices);
@@ -183,7 +184,8 @@ std::optional<double> CollapseBlock::field_cost(const Step& step) {
   const int most_splits = is_bounded() ? 5 : 16;
   const double kStepVoxels = is_bounded() ? 3.0 : 2.0;
   const Vec3& position = step.position;
-  const double reach_mm = std::ldexp(rules_.reach_mm, -caution_at(step.edge));
+  double reach_mm = rules_.reach_mm;
+  for (int taken_back = caution_at(step.edge); taken_back > 0; --taken_back) reach_mm *= kCautious;
   double squares = 0.0;
   const FieldValue at_position = field_->value(position);
   const double step_mm = kStepVoxels * at_position.voxel_mm;
@@ -272,7 +274,6 @@ void CollapseBlock::apply(const Step& step) {
   mesh_.collapse(step.edge, step.position);
   state_.moved[stays] = 1;
   --vertices_left_;
-  has_changed_ = true;
   const HalfEdge first = mesh_.any_from(stays);
   HalfEdge h = first;
   do {
@@ -281,12 +282,14 @@ void CollapseBlock::apply(const Step& step) {
   } while (h != first);
 }
 
-std::size_t CollapseBlock::advance(std::uint16_t last, std::size_t most) {
+std::size_t CollapseBlock::advance(std::uint16_t last, std::size_t most, DistanceProbe& field) {
+  field_ = &field;
   std::size_t steps = 0;
   HalfEdge edge = 0;
   while (steps < most && queue_.take(edge, last)) {
     if (!mesh_.is_gone(edge) && try_step(edge)) ++steps;
   }
+  field_ = nullptr;
   return steps;
 }
 

@@ -39,8 +39,8 @@ struct CollapseState {
 
 /// How steps are judged.
 struct CollapseRules {
-  /// No step goes farther from the field, half as far for each time that a step was taken back
-  /// there; 0: no bound.
+  /// No step goes farther from the field, four fifths as far for each time that a step was taken
+  /// back there; 0: no bound.
   double reach_mm = 0.0;
   /// Steps of this class and above ask the field, and its distance is a part of their cost.
   std::uint16_t first_asking = CostQueue::kClasses;
@@ -52,15 +52,14 @@ struct CollapseRules {
 ///              vertex that may move are of its own block.
 class CollapseBlock {
  public:
-  CollapseBlock(CollapseState& state, const VertexBlock& vertices,
-                std::unique_ptr<DistanceProbe> field, const CollapseRules& rules);
+  CollapseBlock(CollapseState& state, const VertexBlock& vertices, const CollapseRules& rules);
 
   /// The class of the cheapest edge, CostQueue::kClasses when none is left.
   std::uint16_t next_class() noexcept { return queue_.next_class(); }
-  /// Steps in classes up to `last`, `most` of them at most; returns how many.
-  std::size_t advance(std::uint16_t last, std::size_t most);
+  /// Steps in classes up to `last`, `most` of them at most; returns how many. `field` is of this
+  /// thread.
+  std::size_t advance(std::uint16_t last, std::size_t most, DistanceProbe& field);
   std::size_t vertices_left() const noexcept { return vertices_left_; }
-  bool has_changed() const noexcept { return has_changed_; }
 
  private:
   /// A triangle that a step changes: the moved vertex, then two that stay, seen from outside.
@@ -95,8 +94,7 @@ class CollapseBlock {
   CollapseState& state_;
   CollapseMesh& mesh_;
   std::size_t vertices_left_;
-  bool has_changed_ = false;
-  std::unique_ptr<DistanceProbe> field_;
+  DistanceProbe* field_ = nullptr;  ///< while it advances
   CollapseRules rules_;
   CostQueue queue_;
   std::vector<StarTriangle> star_;

@@ -133,22 +133,6 @@ void CollapseMesh::shorten_ways() noexcept {
   }
 }
 
-void CollapseMesh::restore(std::uint32_t v, const CollapseMesh& before) noexcept {
-  assert(before.out_[v] != kGone);
-  positions_[v] = before.positions_[v];
-  out_[v] = before.out_[v];
-  into_[v] = v;
-  HalfEdge h = out_[v];
-  do {
-    const HalfEdge second = next_in_triangle(h);
-    for (const HalfEdge side : {h, second, next_in_triangle(second)}) {
-      from_[side] = before.from_[side];
-      twin_[side] = before.twin_[side];
-    }
-    h = before.next_around(h);
-  } while (h != out_[v]);
-}
-
 TriangleMesh CollapseMesh::mesh(std::vector<std::uint32_t>& kept) const {
   TriangleMesh left;
   kept.clear();

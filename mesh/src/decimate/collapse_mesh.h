@@ -62,13 +62,20 @@ class CollapseMesh {
   /// Makes became() a short way for all.
   void shorten_ways() noexcept;
 
-  /// Vertex `v` and the triangles around it as they were in `before`, where it was there.
-  void restore(std::uint32_t v, const CollapseMesh& before) noexcept;
+  /// Takes back the steps since `before` by which the vertices marked in `goes_back` came to be:
+  /// all that became one of them is a vertex again, where it was, with the triangles around it. The
+  /// rest stays as it is. Where that would not be two-manifold neighbours are marked and go back as
+  /// well. Returns the vertices that went back, ascending.
+  ///
+  /// Cost  1 ns for each vertex of all, 1 us for each that goes back.
+  std::vector<std::uint32_t> restore(const CollapseMesh& before,
+                                     std::vector<std::uint8_t>& goes_back);
 
   /// What is left, in the old order; `kept` becomes the old number of each vertex.
   TriangleMesh mesh(std::vector<std::uint32_t>& kept) const;
 
  private:
+  class Restoring;
   void glue(HalfEdge a, HalfEdge b) noexcept;
   bool has_three_triangles(std::uint32_t v) const noexcept;
 

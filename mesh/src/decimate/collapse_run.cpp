@@ -21,6 +21,7 @@
 
 #include "decimate/bound_keeper.h"
 #include "decimate/collapse_block.h"
+#include "decimate/thread_probes.h"
 #include "decimate/vertex_blocks.h"
 
 namespace argil::mesh {
@@ -39,10 +40,12 @@ class CollapseRun {
   CollapseRun(CollapseMesh mesh, const TriangleMesh& surface, const DecimationTarget& target,
               std::int64_t triangles, const std::vector<bool>& locked)
       : state_(std::move(mesh), bounds(surface), target.voxel_mm()),
+        probes_(target),
         target_(target),
         locked_(locked),
         from_(surface.triangles.size()),
         triangles_(from_),
+        has_count_(triangles > 0),
         // No closed mesh has fewer than the four triangles of a tetrahedron.
         enough_(static_cast<std::size_t>(std::max<std::int64_t>(triangles, 4))) {
     assert(locked.size() == surface.positions.size());
@@ -60,7 +63,6 @@ class CollapseRun {
     double fraction = 0.5;
     CollapseRules rules;
     std::size_t block = kBlockVertices;       ///< vertices, at most
-    bool fits = false;                        ///< within a bound
     std::uint16_t end = CostQueue::kClasses;  ///< steps of this class and above wait
   };
 
@@ -68,19 +70,21 @@ class CollapseRun {
   std::size_t mark_rims(const std::vector<VertexBlock>& blocks);
   std::vector<CollapseBlock> begin(const std::vector<VertexBlock>& cut, const CollapseRules& rules);
   void advance(const Phase& phase, const Pace& pace);
-  std::uint16_t advance_to(std::size_t goal, std::uint16_t end, std::vector<CollapseBlock>& blocks,
-                           const Pace& pace);
+  void advance_to(std::size_t goal, std::uint16_t end, std::vector<CollapseBlock>& blocks,
+                  const Pace& pace);
+  void advance_all(std::uint16_t end, std::vector<CollapseBlock>& blocks, const Pace& pace);
   std::uint16_t advance_class(std::vector<CollapseBlock>& blocks, std::size_t goal,
                               std::uint16_t end);
   Collapsed collapsed() const;
 
   CollapseState state_;
+  ThreadProbes probes_;
   const DecimationTarget& target_;
   const std::vector<bool>& locked_;
   std::size_t from_;
   std::size_t triangles_;  ///< left
+  bool has_count_;
   std::size_t enough_;
-  std::optional<BoundKeeper> keeper_;
 };
 
 std::vector<VertexBlock> CollapseRun::cut(const Phase& phase) const {
@@ -118,9 +122,8 @@ std::size_t CollapseRun::mark_rims(const std::vector<VertexBlock>& blocks) {
 std::vector<CollapseBlock> CollapseRun::begin(const std::vector<VertexBlock>& cut,
                                               const CollapseRules& rules) {
   std::vector<std::optional<CollapseBlock>> made(cut.size());
-  tbb::parallel_for(std::size_t{0}, cut.size(), [&](std::size_t b) {
-    made[b].emplace(state_, cut[b], target_.probe(), rules);
-  });
+  tbb::parallel_for(std::size_t{0}, cut.size(),
+                    [&](std::size_t b) { made[b].emplace(state_, cut[b], rules); });
   std::vector<CollapseBlock> blocks;
   for (std::optional<CollapseBlock>& block : made) blocks.push_back(std::move(*block));
   return blocks;
@@ -153,33 +156,45 @@ std::uint16_t CollapseRun::advance_class(std::vector<CollapseBlock>& blocks, std
   }
   for (std::size_t b = 0; b < cheap.size() && shared < wanted; ++b, ++shared) ++steps[b];
   tbb::parallel_for(std::size_t{0}, cheap.size(), [&](std::size_t b) {
-    steps[b] = cheap[b]->advance(cheapest, std::min(steps[b], kMostSteps));
+    steps[b] = cheap[b]->advance(cheapest, std::min(steps[b], kMostSteps), probes_.mine());
   });
   triangles_ -= 2 * std::accumulate(steps.begin(), steps.end(), std::size_t{0});
   return cheapest;
 }
 
-/// The class of the last step.
-std::uint16_t CollapseRun::advance_to(std::size_t goal, std::uint16_t end,
-                                      std::vector<CollapseBlock>& blocks, const Pace& pace) {
+void CollapseRun::advance_to(std::size_t goal, std::uint16_t end,
+                             std::vector<CollapseBlock>& blocks, const Pace& pace) {
   const auto whole = static_cast<double>(from_ - std::min(from_ - 1, enough_));
   std::uint16_t last = 0;
   while (triangles_ > goal && last < end) {
     last = advance_class(blocks, goal, end);
     pace.at(static_cast<double>(from_ - triangles_) / whole);
   }
-  return last;
+}
+
+/// Every block to its end, which is the same as class by class where no count is to be reached, but
+/// one block after another finds the field's cells in the cache.
+void CollapseRun::advance_all(std::uint16_t end, std::vector<CollapseBlock>& blocks,
+                              const Pace& pace) {
+  constexpr std::size_t kAtATime = 16;  // some 100 ms; then an interruption is heard
+  std::vector<std::size_t> steps(blocks.size(), 0);
+  for (std::size_t first = 0; first < blocks.size(); first += kAtATime) {
+    pace.at(static_cast<double>(first) / static_cast<double>(blocks.size()));
+    tbb::parallel_for(first, std::min(blocks.size(), first + kAtATime), [&](std::size_t b) {
+      steps[b] = blocks[b].advance(end - 1, blocks[b].vertices_left(), probes_.mine());
+    });
+  }
+  triangles_ -= 2 * std::accumulate(steps.begin(), steps.end(), std::size_t{0});
 }
 
 void CollapseRun::advance(const Phase& phase, const Pace& pace) {
   if (triangles_ <= enough_ + phase.more) return;
   const std::vector<VertexBlock> blocks = cut(phase);
   const std::size_t rims = mark_rims(blocks);
-  if (keeper_) keeper_->begin(blocks);
   std::vector<CollapseBlock> runs = begin(blocks, phase.rules);
+  if (!has_count_) return advance_all(phase.end, runs, pace);
   const std::size_t goal = enough_ + phase.more + (phase.more > 0 ? 2 * rims : 0);
-  const std::uint16_t last = advance_to(goal, phase.end, runs, pace);
-  if (keeper_) triangles_ = keeper_->settle(phase.rules, last, phase.fits, pace);
+  advance_to(goal, phase.end, runs, pace);
 }
 
 Collapsed CollapseRun::collapsed() const {
@@ -217,20 +232,27 @@ CollapsedWithin CollapseRun::run_within(const TriangleMesh& surface, const Bound
   const CollapseRules rules{kStepFraction * bound_mm, first_asking};
   if (!is_careful) {
     // Of a count some are left for the phases that ask.
-    const std::size_t more = enough_ > 4 ? from_ / 20 : 0;
-    advance({more, 0.5, rules, kBlockVertices, false, first_asking}, pace.part(0.0, 0.5));
-    advance({more, 0.4, rules, kBlockVertices, false, first_asking}, pace.part(0.5, 0.6));
+    const std::size_t more = has_count_ ? from_ / 20 : 0;
+    advance({more, 0.5, rules, kBlockVertices, first_asking}, pace.part(0.0, 0.4));
+    advance({more, 0.4, rules, kBlockVertices, first_asking}, pace.part(0.4, 0.5));
   }
   state_.mesh.round_to_float();
-  keeper_.emplace(state_, surface, target_, proof);
-  // Small blocks, so that what must be taken back is little.
-  advance({0, 0.55, rules, 2048, true}, pace.part(0.6, 0.8));
-  advance({0, 0.45, rules, 1024, true}, pace.part(0.8, 0.9));
-  advance({0, 0.6, rules, 4096, true}, pace.part(0.9, 0.95));
+  state_.mesh.shorten_ways();
+  BoundKeeper keeper(state_, surface, target_, proof, probes_);
+  advance({0, 0.55, rules, 2048}, pace.part(0.5, 0.65));
+  advance({0, 0.45, rules, 1024}, pace.part(0.65, 0.7));
+  advance({0, 0.6, rules, 4096}, pace.part(0.7, 0.75));
   CollapsedWithin done;
-  done.is_proven = keeper_->is_all_proven(pace.part(0.95, 1.0));
-  done.has_folds = keeper_->folds();
-  done.tries = 1 + keeper_->most_tries();
+  done.is_proven = keeper.settle(rules, pace.part(0.75, 0.95));
+  triangles_ = keeper.triangles();
+  if (done.is_proven && triangles_ > enough_) {
+    // Where something was taken back more is left to do.
+    advance({0, 0.52, rules, 4096}, pace.part(0.95, 0.96));
+    done.is_proven = keeper.settle(rules, pace.part(0.96, 1.0));
+    triangles_ = keeper.triangles();
+  }
+  done.has_folds = keeper.folds();
+  done.tries = 1 + keeper.most_rounds();
   done.collapsed = collapsed();
   return done;
 }

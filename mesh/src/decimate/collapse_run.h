@@ -26,7 +26,7 @@ Result<Collapsed> collapse_edges(const TriangleMesh& surface, const DecimationTa
 
 struct CollapsedWithin {
   Collapsed collapsed;
-  int tries = 1;           ///< of the block that was tried most often
+  int tries = 1;           ///< of the place that was tried most often
   bool is_proven = false;  ///< every part of it and of the field lies within the bound
   bool has_folds = false;  ///< it has some that the surface had, rounded to floats
 };

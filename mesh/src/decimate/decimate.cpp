@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // To a count of triangles by rounds of collapse and fit. Around triangles that came out folded the
 // fit is taken back first; where that does not help, the vertices of the surface there are locked,
-// and the next round begins from the whole surface again. Within a bound no round is needed: what
-// is kept is proven block by block.
+// and the next round begins from the whole surface again. Within a bound no round is needed: there
+// all is proven, and what is not goes back where it is.
 #include "argil/mesh/decimate.h"
 
 #include <algorithm>

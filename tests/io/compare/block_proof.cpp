@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <random>
 #include <set>
 #include <vector>
 
@@ -61,7 +62,8 @@ Share proven(double more_mm, double bound_mm) {
   const TriangleMesh mesh = scaled(surface, 1.0 + more_mm / kBallMm);
   const Progress nobody;
   const TriangleMesh nothing;
-  const BlockProof proof(surface, clay, nothing, bound_mm, Pace(nobody, "proof"));
+  ExtractedSurface extracted(surface, clay, nothing);
+  const BlockProof proof(extracted, bound_mm, Pace(nobody, "proof"));
   EXPECT_GT(proof.cells(), surface.triangles.size() / 4);
   NearestTriangle near(mesh);
   Share share;
@@ -136,7 +138,8 @@ TEST(BlockProof, AsksForEveryCellThatTheFieldsSurfacePassesThrough) {
     const TriangleMesh surface = extract_surface(*clay);
     const Progress nobody;
     const TriangleMesh nothing;
-    const BlockProof proof(surface, *clay, nothing, 1.0, Pace(nobody, "proof"));
+    ExtractedSurface extracted(surface, *clay, nothing);
+    const BlockProof proof(extracted, 1.0, Pace(nobody, "proof"));
     std::set<CellPlace> asked;
     for (std::uint32_t c = 0; c < proof.cells(); ++c) {
       FirstPlace first;
@@ -147,6 +150,72 @@ TEST(BlockProof, AsksForEveryCellThatTheFieldsSurfacePassesThrough) {
     EXPECT_GT(crossed.size(), 500U);
     EXPECT_TRUE(std::includes(asked.begin(), asked.end(), crossed.begin(), crossed.end()));
   }
+}
+
+/// Flat sides at coarse levels, and waves at the finest.
+Clay waves_on_a_cube() {
+  const auto distance = [](const Vec3& p) {
+    const double cube = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - 5.03;
+    const double waves = length(p - Vec3{0.3, 0.4, 5.0}) - 1.5 -
+                         0.1 * std::sin(6.0 * p.x) * std::sin(6.0 * p.y) * std::sin(6.0 * p.z);
+    return std::min(cube, waves);
+  };
+  ClayOptions options;
+  options.voxel_mm = kBallVoxelMm;
+  return Clay::from_distance(distance, {{-8, -8, -8}, {8, 8, 8}}, options).value();
+}
+
+/// A triangle and the greatest |phi| that points of it have.
+struct AskewTriangle {
+  mesh::Corners corners;
+  double greatest_mm = 0.0;
+};
+
+/// Triangles of some two voxels, any way turned, with corners in cells of several levels.
+std::vector<AskewTriangle> across_levels(const Clay& clay, std::size_t count) {
+  std::mt19937 random(5);
+  const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
+  FieldSampler field(clay);
+  std::vector<AskewTriangle> found;
+  while (found.size() < count) {
+    const Vec3 at{3.0 * number(), 3.0 * number(), 5.0 + 0.6 * number()};
+    AskewTriangle one;
+    std::set<int> levels;
+    for (Vec3& corner : one.corners) {
+      corner = at + kBallVoxelMm * Vec3{number(), number(), number()};
+      const FieldCell cell = field.cell_at(corner);
+      levels.insert(cell.per_mm > 0.0 ? cell.level : -1);
+    }
+    if (levels.size() < 2 || levels.count(-1) > 0) continue;
+    mesh::for_each_sample(24, [&](const std::array<double, 3>& w) {
+      const Vec3 p = w[0] * one.corners[0] + w[1] * one.corners[1] + w[2] * one.corners[2];
+      one.greatest_mm = std::max(one.greatest_mm, std::abs(field.distance_mm(p)));
+    });
+    found.push_back(one);
+  }
+  return found;
+}
+
+TEST(BlockProof, AsksForTrianglesAcrossLevelsAsExactly) {
+  const Clay clay = waves_on_a_cube();
+  const TriangleMesh surface = extract_surface(clay);
+  const TriangleMesh nothing;
+  ExtractedSurface extracted(surface, clay, nothing);
+  const Progress nobody;
+  const auto is_near = [&](const AskewTriangle& triangle, double bound_mm) {
+    const BlockProof proof(extracted, bound_mm, Pace(nobody, "proof"));
+    std::uint8_t answer = 0;
+    proof.ask_triangles({&triangle.corners, 1}, {&answer, 1});
+    return answer != 0;
+  };
+  const std::vector<AskewTriangle> triangles = across_levels(clay, 300);
+  std::size_t proven = 0;
+  for (const AskewTriangle& triangle : triangles) {
+    EXPECT_FALSE(is_near(triangle, 0.99 * triangle.greatest_mm));
+    // Between the points looked at it may be more, and phi jumps where levels meet.
+    proven += is_near(triangle, 1.1 * triangle.greatest_mm + 0.02 * kBallVoxelMm) ? 1 : 0;
+  }
+  EXPECT_GT(proven, triangles.size() * 9 / 10);
 }
 
 }  // namespace

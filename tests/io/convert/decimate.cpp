@@ -193,8 +193,10 @@ void DecimateScenes::expect_error_kept(double sampled_mm) const {
     ASSERT_TRUE(made) << made.error().message;
     const TriangleMesh& mesh = made.value().mesh;
     EXPECT_TRUE(mesh::check_mesh(mesh).printable);
-    // A wider bound needs fewer, but for what a block taken back leaves: of a surface that has few
-    // hundred left at the end it is up to 0.3 %.
+    std::printf("bound of %.2f voxels: %zu triangles\n", bound / h_, mesh.triangles.size());
+    // A wider bound needs fewer, nearly: what is not proven goes back and is collapsed again with
+    // less reach, here more and there less of it, and of a surface that has few hundred left at the
+    // end that is up to 0.3 %.
     EXPECT_LT(static_cast<double>(mesh.triangles.size()),
               test::effort(1.0, 1.05) * static_cast<double>(before) +
                   test::effort(0.0, 0.003) * static_cast<double>(surface_.triangles.size()));

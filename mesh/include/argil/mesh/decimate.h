@@ -78,7 +78,7 @@ struct DecimateOptions {
 };
 
 struct DecimateReport {
-  /// Runs of the collapse, with a bound of the block that was tried most often; more than one where
+  /// Runs of the collapse, with a bound of the place that was tried most often; more than one where
   /// something was taken back.
   int rounds = 0;
   std::int64_t collapses = 0;        ///< that led to the mesh
@@ -102,11 +102,11 @@ struct Decimated {
 ///                         a surface that is not closed and two-manifold.
 ///              interrupted.
 /// Accuracy     max_error_mm is kept both ways: all of the mesh and of the field is proven to be
-///              within it (BoundProof), or goes back to what was proven before; with 2 % in hand.
+///              within it (BoundProof), or goes back to what it was; with 2 % in hand.
 ///              Below a twentieth of a voxel nothing is proven, and the bound is refused.
 /// Determinism  same bits for any number of threads (DecimateScenes.SameBitsForAnyNumberOfThreads).
 /// Threads      any thread; spreads over TBB.
-/// Cost         3 us of CPU time for each triangle of `surface`; with a bound 10 us or more.
+/// Cost         3 us of CPU time for each triangle of `surface`; with a bound 4 us or more.
 /// Source       M. Garland, P. Heckbert, "Surface simplification using quadric error metrics",
 ///              1997; P. Trettner, L. Kobbelt, "Fast and robust QEF minimization using
 ///              probabilistic quadrics", 2020, of which the isotropic term is taken. Ours differs:
