@@ -65,6 +65,25 @@ std::string_view XmlScan::attribute(std::string_view name) const noexcept {
   return {};
 }
 
+bool XmlScan::is_plain(const PlainForm& form, std::array<std::string_view, 3>& values) noexcept {
+  if (close_pending_ || open_.size() == kDeepestElement) return false;
+  skip_blanks();
+  std::string_view rest = std::string_view(text_).substr(at_);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (!rest.starts_with(form[n])) return false;
+    rest.remove_prefix(form[n].size());
+    const std::size_t end = std::min(rest.find('"'), rest.size());
+    values[n] = rest.substr(0, end);
+    rest.remove_prefix(end);
+  }
+  if (!rest.starts_with(form.back())) return false;
+  rest.remove_prefix(form.back().size());
+  if (rest.starts_with(' ')) rest.remove_prefix(1);
+  if (!rest.starts_with("/>")) return false;
+  plain_end_ = text_.size() - rest.size() + 2;
+  return true;
+}
+
 bool XmlScan::take_attribute() {
   Attribute attribute;
   attribute.name = take_name();
