@@ -17,9 +17,10 @@
 namespace argil {
 namespace {
 
-/// What is solved counts only where it is far more than what is slow beside any corner.
-constexpr float kLeastGain = 1.3F;
-constexpr float kLeastGainVoxels = 0.1F;
+/// What was there was never too long, and where it is right it is more exact than what is solved:
+/// a solution counts where it is farther by more than it is off.
+constexpr float kLeastGain = 1.02F;
+constexpr float kLeastGainVoxels = 0.03F;
 
 /// Whether a solution is so much farther than what was there. The band cuts it short.
 bool is_gain(const LevelEdit& edit, float before, float solved) noexcept {
