@@ -85,8 +85,9 @@ bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& p
 
 /// Solves what is too short on one side of new levels whose values are another surface's distance
 /// plus a constant: outside of what became smaller, inside of what became larger. Only short nodes
-/// (edit/short_nodes.h) change, to what is farther, and never a node beside the surface. On levels
-/// that belong to no clay yet, before restrict_all(). False when `progress` asked to stop.
+/// (edit/short_nodes.h) change, to what is farther, and never a node beside the surface; a leaf may
+/// be without a band then. On levels that belong to no clay yet, before restrict_all(). False when
+/// `progress` asked to stop.
 ///
 /// Accuracy  that of sweep_distances() from nodes that are right
 ///           (OperationOffset.IsADistanceBeyondTheEndsOfWhatItShrank).

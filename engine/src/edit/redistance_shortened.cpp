@@ -77,7 +77,6 @@ bool redistance_shortened(LevelStack& stack, bool is_outside, const Progress& pr
     for (const ShortNodes& leaf : nodes) edit.want(level, leaf.origin);
     edit.load();
     if (!solve_short(edit.level(level), nodes, goes_on)) return false;
-    edit.drop_empty();
     edit.commit();
   }
   return true;
