@@ -110,8 +110,7 @@ struct EdgeLeaf {
     const auto radius = static_cast<float>(radius_mm);
     const float farthest = kFarthest * static_cast<float>(voxel_mm);
     const float sharp = std::max(a, b);
-    return (a + b > -2.0F * radius) & (sharp < farthest) &
-           (sharp > -farthest - kDeepest * radius) &
+    return (a + b > -2.0F * radius) & (sharp < farthest) & (sharp > -farthest - kDeepest * radius) &
            (std::min(a, b) > -static_cast<float>(edge_reach_mm(voxel_mm, radius_mm)));
   }
   /// Of all nodes, without a branch: compilers make that of whole registers.
