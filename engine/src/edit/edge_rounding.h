@@ -110,14 +110,14 @@ struct EdgeLeaf {
     const auto radius = static_cast<float>(radius_mm);
     const float farthest = kFarthest * static_cast<float>(voxel_mm);
     const float sharp = std::max(a, b);
-    return a + b > -2.0F * radius && sharp < farthest && sharp > -farthest - kDeepest * radius &&
-           std::min(a, b) > -static_cast<float>(edge_reach_mm(voxel_mm, radius_mm));
+    return (a + b > -2.0F * radius) & (sharp < farthest) & (sharp > -farthest - kDeepest * radius) &
+           (std::min(a, b) > -static_cast<float>(edge_reach_mm(voxel_mm, radius_mm)));
   }
+  /// Of all nodes, without a branch: compilers make that of whole registers.
   bool is_near_any(const float* clay) const noexcept {
-    for (std::size_t n = 0; n < kLeafNodes; ++n) {
-      if (is_near(clay[n], n)) return true;
-    }
-    return false;
+    unsigned any = 0;
+    for (std::size_t n = 0; n < kLeafNodes; ++n) any |= is_near(clay[n], n) ? 1U : 0U;
+    return any != 0;
   }
 };
 

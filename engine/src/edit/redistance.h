@@ -84,14 +84,14 @@ LeafList redistance_touched(EditTarget& target, LeafList touched);
 bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& progress);
 
 /// Solves what is too short on one side of new levels whose values are another surface's distance
-/// plus a constant: outside of what became smaller, inside of what became larger. Only what gains
-/// more than three tenths changes, or reaches the end of the band, and never a node beside the
-/// surface. On levels that belong to no clay yet, before restrict_all(). False when `progress`
-/// asked to stop.
+/// plus a constant: outside of what became smaller, inside of what became larger. Only short nodes
+/// (edit/short_nodes.h) change, to what is farther, and never a node beside the surface; a leaf may
+/// be without a band then. On levels that belong to no clay yet, before restrict_all(). False when
+/// `progress` asked to stop.
 ///
-/// Accuracy  that of sweep_distances(); what is less than 1.3 times too short may stay so
+/// Accuracy  that of sweep_distances() from nodes that are right
 ///           (OperationOffset.IsADistanceBeyondTheEndsOfWhatItShrank).
-/// Cost      1 us a leaf, and 50 where something is too short.
+/// Cost      1 us a leaf, and 20 where something is too short.
 bool redistance_shortened(LevelStack& stack, bool is_outside, const Progress& progress);
 
 /// The leaves whose values were moved with the surface and not measured since, and how far they

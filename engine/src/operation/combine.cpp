@@ -50,6 +50,8 @@ struct CombineJob {
     }
     return std::max(clay, other);
   }
+  /// The same at the nodes of a leaf.
+  void combine_nodes(const float* clay, const LeafValues& other, LeafValues& now) const noexcept;
   /// -1 where the air is what the edit cuts.
   float clay_side() const noexcept { return kind == CombineKind::unite ? -1.0F : 1.0F; }
   /// Of the body that is kept with the clay, or of the air.
@@ -78,12 +80,43 @@ struct CombineJob {
   Vec3 rise_at(const LevelStack& stack, int level, const Coord& node) const;
 };
 
+/// A loop for each kind, so that compilers make them of whole registers.
+void CombineJob::combine_nodes(const float* clay, const LeafValues& other,
+                               LeafValues& now) const noexcept {
+  switch (kind) {
+    case CombineKind::unite:
+      for (std::size_t n = 0; n < kLeafNodes; ++n) now[n] = std::min(clay[n], other[n]);
+      return;
+    case CombineKind::subtract:
+      for (std::size_t n = 0; n < kLeafNodes; ++n) now[n] = std::max(clay[n], -other[n]);
+      return;
+    case CombineKind::intersect:
+      for (std::size_t n = 0; n < kLeafNodes; ++n) now[n] = std::max(clay[n], other[n]);
+      return;
+  }
+}
+
+/// Whether both are nearer than that to some node of a leaf.
+bool any_near(const float* clay, const LeafValues& other, float near) noexcept {
+  unsigned any = 0;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) {
+    any |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near) ? 1U : 0U;
+  }
+  return any != 0;
+}
+
+bool any_differs(const float* a, const LeafValues& b) noexcept {
+  unsigned any = 0;
+  for (std::size_t n = 0; n < kLeafNodes; ++n) any |= a[n] != b[n] ? 1U : 0U;
+  return any != 0;
+}
+
 template <class Values>
 void CombineJob::combine_leaf(const LevelStack& stack, int level, const Coord& origin,
                               const float* clay, const LeafValues& other, const Values& values,
                               LeafValues& now) const {
   const float band = stack.band_mm(level);
-  for (std::size_t n = 0; n < kLeafNodes; ++n) now[n] = combined(clay[n], other[n]);
+  combine_nodes(clay, other, now);
   if (has_edge(stack.voxel_mm(level), clay, other)) {
     LeafValues far = other;
     for (std::size_t n = 0; n < kLeafNodes; ++n) {
@@ -240,14 +273,11 @@ std::uint8_t CombinePlan::judge(int level, const Coord& origin, bool is_detailed
   job_.solid.fill(level, origin, other);
   const bool has_edge = job_.has_edge(stack_.voxel_mm(level), clay.data(), other);
   const float near = 2.0F * static_cast<float>(stack_.voxel_mm(level));
-  bool meet = has_edge;
-  bool differs = has_edge;  // or may: rounding is left to the edit
   LeafValues now;
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    meet |= (std::abs(clay[n]) < near) & (std::abs(other[n]) < near);
-    now[n] = job_.combined(clay[n], other[n]);
-    differs |= now[n] != clay[n];
-  }
+  job_.combine_nodes(clay.data(), other, now);
+  const bool meet = has_edge || any_near(clay.data(), other, near);
+  // Or may: rounding is left to the edit.
+  const bool differs = has_edge || any_differs(clay.data(), now);
   const auto crease = static_cast<std::uint8_t>(meet ? kCrease : kNo);
   if (!differs) return crease;
   const auto wanted = static_cast<std::uint8_t>(crease | kWanted);
@@ -313,9 +343,11 @@ std::vector<Coincidence> stamp_solid(LevelEdit& level, const CombineJob& job) {
     job.combine_leaf(
         level.stack(), level.level(), leaf.origin, leaf.before(), other,
         [&](const Coord& at) { return reader.filled_before(at); }, now);
-    for (std::size_t i = 0; i < kLeafNodes; ++i) {
-      if (std::abs(leaf.before()[i]) < near && std::abs(other[i]) < near) {
-        met[n].push_back(static_cast<int>(i));
+    if (any_near(leaf.before(), other, near)) {
+      for (std::size_t i = 0; i < kLeafNodes; ++i) {
+        if (std::abs(leaf.before()[i]) < near && std::abs(other[i]) < near) {
+          met[n].push_back(static_cast<int>(i));
+        }
       }
     }
     leaf.write_all(now);

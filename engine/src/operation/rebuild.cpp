@@ -72,6 +72,7 @@ class Rebuilder {
   bool fill(const MovedLevel& moved, int level, const Origins& origins, Keep keep);
   bool fill(int level, const Origins& origins, Keep keep);
   bool balance();
+  void drop_empty(int level);
 
   const PlacedClay& source_;
   const RebuildTarget& target_;
@@ -169,6 +170,16 @@ bool Rebuilder::balance() {
   return true;
 }
 
+/// What was solved again may lie beyond the band, all of a leaf.
+void Rebuilder::drop_empty(int level) {
+  const float band = stack_->band_mm(level);
+  for (const Coord& origin : stack_->sorted_origins(level)) {
+    if (!is_empty(*stack_, level, origin)) continue;
+    const float value = values_of(*stack_->leaf(level, origin))[0];
+    stack_->erase_leaf(level, origin, value < 0.0F ? -band : band);
+  }
+}
+
 Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
   const Error interrupted{ErrorKind::interrupted, "interrupted; the clay is as it was"};
   const auto box = checked_bounds();
@@ -194,6 +205,7 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
   for (int level = 0; level < top; ++level) {
     prune_level(*stack_, level, tolerance_of(target_.options));
   }
+  for (int level = 0; level <= top; ++level) drop_empty(level);
   return std::move(stack_);
 }
 

@@ -351,6 +351,22 @@ struct GradientBounds {
   float most;           ///< of the upwind one
 };
 
+/// On which side of the surface, and what counts; see edit/short_nodes.cpp.
+struct UpwindJob {
+  float side;  ///< 1 outside, -1 inside
+  float voxel;
+  float band;
+  float least_slope;  ///< of upwind differences
+  float least_rise;   ///< along an axis, in voxels
+};
+
+/// Bits along z, by row.
+struct UpwindRows {
+  unsigned char told[kLeafRows];   ///< within the band on that side, and none beside it across
+  unsigned char slow[kLeafRows];   ///< of these, which rise too slowly
+  unsigned char by[6][kLeafRows];  ///< which are told by the node before them along x, behind, ...
+};
+
 /// The loops of one instruction set. `out` is a leaf's nodes, and part of no argument.
 struct RowLoops {
   /// The leaf's nodes with those next to a sign change measured, as sweep_distances() says, where
@@ -449,6 +465,9 @@ struct RowLoops {
   /// given; of those as near as each other that with the lowest number. No ray passes between two
   /// triangles whose common corners have the same bits, not even those of two blocks.
   void (*meet_triangles)(const RayJob& ray, const TrianglesJob& job, TriangleHit& hit) noexcept;
+  /// By which of their neighbours nodes on one side are told, and which too slowly. What is missing
+  /// is NaN and tells none.
+  void (*find_upwind)(const HaloBlock& from, const UpwindJob& job, UpwindRows& out) noexcept;
 };
 
 /// Those of the fastest set that may be used here (best_simd()).

@@ -28,6 +28,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 #include "rows/resample_impl.h"
 #include "rows/restrict_impl.h"
 #include "rows/sweep_impl.h"
+#include "rows/upwind_impl.h"
 
 // After those whose functions they use.
 #include "rows/deepen_impl.h"
@@ -62,6 +63,7 @@ const RowLoops kRowLoops{seed,
                          measure_clusters,
                          lower_to_layer,
                          enter_boxes,
-                         meet_triangles};
+                         meet_triangles,
+                         find_upwind};
 
 }  // namespace argil::ARGIL_ROWS_SET

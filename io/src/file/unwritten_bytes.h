@@ -48,5 +48,6 @@ struct UnwrittenAllocator {
 
 /// Bytes that a resize makes, and does not write.
 using UnwrittenBytes = std::vector<std::byte, UnwrittenAllocator<std::byte>>;
+using UnwrittenText = std::vector<char, UnwrittenAllocator<char>>;
 
 }  // namespace argil::io

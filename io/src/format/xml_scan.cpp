@@ -15,11 +15,24 @@ bool ends_name(char c) noexcept {
   return is_xml_space(c) || c == '/' || c == '>' || c == '=' || c == '<' || c == '"' || c == '\'';
 }
 
+/// A byte holds the count of so many: of whole registers, which std::count does not use.
+std::int64_t count_lines(std::string_view text) noexcept {
+  constexpr std::size_t kAtOnce = 192;
+  std::int64_t count = 0;
+  while (!text.empty()) {
+    const std::string_view front = text.substr(0, kAtOnce);
+    std::uint8_t lines = 0;
+    for (const char c : front) lines = static_cast<std::uint8_t>(lines + (c == '\n' ? 1 : 0));
+    count += lines;
+    text.remove_prefix(front.size());
+  }
+  return count;
+}
+
 }  // namespace
 
 std::int64_t XmlScan::line() const noexcept {
-  const std::string_view before = std::string_view(text_).substr(0, at_);
-  return 1 + lines_before_ + std::count(before.begin(), before.end(), '\n');
+  return 1 + lines_before_ + count_lines(std::string_view(text_).substr(0, at_));
 }
 
 XmlScan::Event XmlScan::fail(const std::string& problem) {
@@ -63,6 +76,25 @@ std::string_view XmlScan::attribute(std::string_view name) const noexcept {
     if (attribute.name == name) return attribute.value;
   }
   return {};
+}
+
+bool XmlScan::is_plain(const PlainForm& form, std::array<std::string_view, 3>& values) noexcept {
+  if (close_pending_ || open_.size() == kDeepestElement) return false;
+  skip_blanks();
+  std::string_view rest = std::string_view(text_).substr(at_);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (!rest.starts_with(form[n])) return false;
+    rest.remove_prefix(form[n].size());
+    const std::size_t end = std::min(rest.find('"'), rest.size());
+    values[n] = rest.substr(0, end);
+    rest.remove_prefix(end);
+  }
+  if (!rest.starts_with(form.back())) return false;
+  rest.remove_prefix(form.back().size());
+  if (rest.starts_with(' ')) rest.remove_prefix(1);
+  if (!rest.starts_with("/>")) return false;
+  plain_end_ = text_.size() - rest.size() + 2;
+  return true;
 }
 
 bool XmlScan::take_attribute() {

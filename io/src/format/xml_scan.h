@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -38,6 +39,14 @@ class XmlScan {
   /// says why.
   Event next();
 
+  /// An empty element of three attributes as most programs write it: the texts of it before,
+  /// between and behind the values, as in `<vertex x="`, `" y="`, `" z="`, `"`.
+  using PlainForm = std::array<std::string_view, 4>;
+  /// Whether an element of this very form comes next, all of it in what was taken of the text, and
+  /// then its values. It stays next; pass_plain() passes it. Of others next() tells.
+  bool is_plain(const PlainForm& form, std::array<std::string_view, 3>& values) noexcept;
+  void pass_plain() noexcept { at_ = plain_end_; }
+
   std::string_view name() const noexcept { return name_; }
   /// The value of an attribute of the element that just began; empty when it has none.
   std::string_view attribute(std::string_view name) const noexcept;
@@ -61,6 +70,7 @@ class XmlScan {
   TakePiece take_;
   std::string text_;  ///< from the first tag that is not forgotten on
   std::size_t at_ = 0;
+  std::size_t plain_end_ = 0;      ///< of the element that is_plain() found
   std::int64_t lines_before_ = 0;  ///< `text_`
   std::string_view name_;
   std::vector<Attribute> attributes_;

@@ -4,11 +4,13 @@
 #include "format/zip_read.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include <tbb/task_group.h>
 #include <zlib.h>
 
 #include "file/load_bytes.h"
@@ -179,6 +181,8 @@ struct ZipContent::State {
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(packed.data()));
   }
   ~State() {
+    ahead.cancel();
+    ahead.wait();
     if (entry.method != 0) inflateEnd(&stream);
   }
   State(const State&) = delete;
@@ -186,6 +190,9 @@ struct ZipContent::State {
 
   /// Up to `room` bytes to `to`; how many they were.
   std::size_t unpack(char* to, std::size_t room);
+  /// The next piece to `next`, which is empty: nothing where there is no more, or it is damaged.
+  void unpack_next();
+  bool is_ended() const noexcept { return is_over || is_damaged; }
 
   std::span<const std::byte> packed;
   const ZipEntry& entry;
@@ -195,6 +202,8 @@ struct ZipContent::State {
   std::uint32_t crc = 0;
   bool is_over = false;
   bool is_damaged = false;
+  std::string next;
+  mutable tbb::task_group ahead;  ///< what unpacks it; all others wait for that
 };
 
 std::size_t ZipContent::State::unpack(char* to, std::size_t room) {
@@ -250,23 +259,33 @@ Result<ZipContent> ZipContent::open(std::span<const std::byte> archive, const Zi
   return ZipContent(std::make_unique<State>(*packed, entry, name));
 }
 
+void ZipContent::State::unpack_next() {
+  assert(next.empty());
+  while (next.empty() && !is_ended()) {
+    next.resize(kPieceBytes);
+    const std::size_t size = unpack(next.data(), next.size());
+    next.resize(size);
+    crc =
+        static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(next.data()), size));
+    taken += size;
+    if (taken > entry.bytes) is_damaged = true;
+  }
+}
+
 bool ZipContent::take(std::string& text) {
   State& state = *state_;
-  const std::size_t before = text.size();
-  while (text.size() == before && !state.is_over && !state.is_damaged) {
-    text.resize(before + kPieceBytes);
-    const std::size_t size = state.unpack(text.data() + before, kPieceBytes);
-    text.resize(before + size);
-    state.crc = static_cast<std::uint32_t>(
-        crc32_z(state.crc, reinterpret_cast<const Bytef*>(text.data() + before), size));
-    state.taken += size;
-    if (state.taken > state.entry.bytes) state.is_damaged = true;
-  }
-  return text.size() > before;
+  state.ahead.wait();
+  if (state.next.empty()) state.unpack_next();
+  if (state.next.empty()) return false;
+  text += state.next;
+  state.next.clear();
+  if (!state.is_ended()) state.ahead.run([&state] { state.unpack_next(); });
+  return true;
 }
 
 Result<void> ZipContent::check() const {
   const State& state = *state_;
+  state.ahead.wait();
   const bool is_wrong =
       state.is_over && (state.taken != state.entry.bytes || state.crc != state.entry.crc);
   if (!state.is_damaged && !is_wrong) return {};

@@ -31,7 +31,7 @@ Result<std::vector<ZipEntry>> zip_directory(std::span<const std::byte> archive,
                                             const std::string& name);
 
 /// The content of an entry, unpacked piece by piece, so that memory does not follow its size: a
-/// megabyte may unpack to a gigabyte.
+/// megabyte may unpack to a gigabyte. While a piece is read another thread unpacks the next.
 class ZipContent {
  public:
   static constexpr std::size_t kPieceBytes = 256 * 1024;

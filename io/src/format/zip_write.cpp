@@ -45,6 +45,11 @@ constexpr unsigned kDeflated = 8;
 
 }  // namespace
 
+std::uint32_t crc_of(std::string_view data) noexcept {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(data.data()), data.size()));
+}
+
 ZipWriter::ZipWriter(OutputFile& out)
     : out_(out), stream_(std::make_unique<z_stream_s>()), packed_(kPackedChunk) {
   if (deflateInit2(stream_.get(), kLevel, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
@@ -65,6 +70,7 @@ void ZipWriter::begin(const std::string& name) {
   out_.write(Record{}.u32(0).u32(0).u32(0).u16(name.size()).u16(0).text(name).data());
   deflateReset(stream_.get());
   deflateTune(stream_.get(), kGoodMatch, kNotedMatch, kNiceMatch, kChain);
+  is_at_byte_ = true;
 }
 
 void ZipWriter::deflate_input(int flush) {
@@ -85,6 +91,18 @@ void ZipWriter::write(std::string_view data) {
   stream_->next_in = bytes;
   stream_->avail_in = static_cast<uInt>(data.size());
   deflate_input(Z_NO_FLUSH);
+  is_at_byte_ = false;
+}
+
+void ZipWriter::write_deflated(std::string_view packed, std::size_t bytes, std::uint32_t crc) {
+  // Full: zlib refers to nothing before, where it does not know what was added.
+  if (!is_at_byte_) deflate_input(Z_FULL_FLUSH);
+  is_at_byte_ = true;
+  out_.write(packed);
+  Entry& entry = entries_.back();
+  entry.bytes += bytes;
+  entry.crc =
+      static_cast<std::uint32_t>(crc32_combine(entry.crc, crc, static_cast<z_off_t>(bytes)));
 }
 
 Result<void> ZipWriter::end() {

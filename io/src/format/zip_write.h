@@ -15,6 +15,9 @@ struct z_stream_s;  // zlib's, kept out of this header
 
 namespace argil::io {
 
+/// The CRC-32 of a ZIP archive.
+std::uint32_t crc_of(std::string_view data) noexcept;
+
 /// Writes a ZIP archive of deflated entries, one after the other. Every entry is dated 1 January
 /// 1980, so that the same content gives the same bytes. Disk errors stay in the OutputFile.
 class ZipWriter {
@@ -26,6 +29,9 @@ class ZipWriter {
 
   void begin(const std::string& name);
   void write(std::string_view data);
+  /// Goes on with `bytes` that were deflated elsewhere, with their CRC-32: blocks that refer to
+  /// nothing before them, end at a byte, and are not the last.
+  void write_deflated(std::string_view packed, std::size_t bytes, std::uint32_t crc);
   /// Errors  bad_input when the entry is 4 GB or more, which needs an extension not written here.
   Result<void> end();
   /// Writes the directory; the archive is complete.
@@ -44,6 +50,7 @@ class ZipWriter {
   std::vector<Entry> entries_;
   std::unique_ptr<z_stream_s> stream_;
   std::vector<unsigned char> packed_;
+  bool is_at_byte_ = false;  ///< nothing that was given is not written yet, to a whole byte
 };
 
 }  // namespace argil::io

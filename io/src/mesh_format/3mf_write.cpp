@@ -11,6 +11,7 @@
 
 #include "argil/mesh/rounding.h"
 
+#include "format/record_deflate.h"
 #include "format/xml_text.h"
 #include "format/zip_write.h"
 #include "mesh_format/chunks.h"
@@ -36,13 +37,17 @@ constexpr std::string_view kRelationships =
 /// and the build. Numbers of objects go on from one to the next.
 class ModelWriter {
  public:
-  ModelWriter(Chunks& chunks, const ThreemfModel& model) : chunks_(chunks), model_(model) {}
+  /// `chunks` go to `zip`.
+  ModelWriter(Chunks& chunks, ZipWriter& zip, const ThreemfModel& model)
+      : chunks_(chunks), zip_(zip), model_(model) {}
 
   Result<void> write();
 
  private:
   void write_head();
   void write_colors();
+  template <class Items, class One>
+  Result<void> write_records(const Items& items, const One& one);
   Result<void> write_mesh(const ThreemfObject& object);
   Result<void> write_components(const AssemblyItem& item);
   void write_placement(const char* element, std::size_t id, const Affine& to_mm);
@@ -52,7 +57,9 @@ class ModelWriter {
   }
 
   Chunks& chunks_;
+  ZipWriter& zip_;
   const ThreemfModel& model_;
+  RecordDeflate few_;
   std::map<Srgb, std::size_t> colors_;  ///< the place of each in its group
   std::size_t last_id_ = 0;
   std::size_t first_object_ = 0;
@@ -94,22 +101,59 @@ void ModelWriter::begin_object(const std::string& name) {
     chunks_.text(" name=\"").text(xml_escaped(plain_name(name, Assembly::kLongestName))).text("\"");
 }
 
+/// A piece of the text, deflated by itself.
+struct DeflatedPiece {
+  RecordDeflate records;
+  std::string_view packed;
+  std::uint32_t crc = 0;
+};
+
+/// As write_each. A few are text like any other: codes of their own would take more than they gain.
+template <class Items, class One>
+Result<void> ModelWriter::write_records(const Items& items, const One& one) {
+  constexpr std::size_t kFew = 512;
+  if (items.size() < kFew) {
+    few_.clear();
+    for (const auto& item : items) one(item, few_);
+    chunks_.text(few_.text());
+    return chunks_.step(items.size()) ? Result<void>() : writing_stopped();
+  }
+  chunks_.flush();
+  const auto make = [&](const ItemRange& range, DeflatedPiece& piece) {
+    piece.records.clear();
+    for (std::size_t i = range.begin; i < range.end; ++i) one(items[i], piece.records);
+    piece.packed = piece.records.packed();
+    piece.crc = crc_of(piece.records.text());
+  };
+  const auto use = [&](const ItemRange& range, const DeflatedPiece& piece) {
+    zip_.write_deflated(piece.packed, piece.records.text().size(), piece.crc);
+    return chunks_.step_past(range.end - range.begin);
+  };
+  if (!make_in_order<DeflatedPiece>(items.size(), make, use)) return writing_stopped();
+  return {};
+}
+
 Result<void> ModelWriter::write_mesh(const ThreemfObject& object) {
   begin_object(object.name);
   if (object.color) {
     chunks_.text(" pid=\"1\" pindex=\"").number(colors_.at(*object.color)).text("\"");
   }
   chunks_.text(">\n   <mesh>\n    <vertices>\n");
-  Result<void> written = write_each(chunks_, object.mesh->positions, [&](const Vec3& p) {
-    const auto [x, y, z] = mesh::floats_of(p);
-    chunks_.text("<vertex x=\"").number(x).text("\" y=\"").number(y).text("\" z=\"").number(z);
-    chunks_.text("\"/>\n");
-  });
+  Result<void> written =
+      write_records(object.mesh->positions, [](const Vec3& p, RecordDeflate& records) {
+        const auto [x, y, z] = mesh::floats_of(p);
+        records.field(0, "<vertex x=\"", x);
+        records.field(1, "\" y=\"", y);
+        records.field(2, "\" z=\"", z);
+        records.field(3, "\"/>\n");
+      });
   if (!written) return written;
   chunks_.text("    </vertices>\n    <triangles>\n");
-  written = write_each(chunks_, object.mesh->triangles, [&](const Triangle& t) {
-    chunks_.text("<triangle v1=\"").number(t[0]).text("\" v2=\"").number(t[1]);
-    chunks_.text("\" v3=\"").number(t[2]).text("\"/>\n");
+  written = write_records(object.mesh->triangles, [](const Triangle& t, RecordDeflate& records) {
+    records.field(0, "<triangle v1=\"", t[0]);
+    records.field(1, "\" v2=\"", t[1]);
+    records.field(2, "\" v3=\"", t[2]);
+    records.field(3, "\"/>\n");
   });
   chunks_.text("    </triangles>\n   </mesh>\n  </object>\n");
   return written;
@@ -184,7 +228,7 @@ Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progres
   }
   zip.begin("3D/3dmodel.model");
   Chunks chunks([&](std::string_view data) { zip.write(data); }, progress, steps);
-  written = ModelWriter(chunks, model).write();
+  written = ModelWriter(chunks, zip, model).write();
   if (!written) return written;
   chunks.flush();
   written = zip.end();

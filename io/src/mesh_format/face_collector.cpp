@@ -46,6 +46,20 @@ std::string FaceCollector::add(const std::vector<std::int64_t>& corners, std::ui
   return {};
 }
 
+bool FaceCollector::add_triangle(const std::array<std::int64_t, 3>& corners,
+                                 std::uint64_t position) {
+  const auto [low, top] = std::minmax({corners[0], corners[1], corners[2]});
+  if (top >= kNoVertex || low < 0) return false;
+  if (top > highest_) {
+    highest_ = top;
+    highest_position_ = position;
+  }
+  triangles_.push_back({static_cast<std::uint32_t>(corners[0]),
+                        static_cast<std::uint32_t>(corners[1]),
+                        static_cast<std::uint32_t>(corners[2])});
+  return true;
+}
+
 void FaceCollector::add_fan(std::span<const std::uint32_t> corners) {
   for (std::size_t i = 2; i < corners.size(); ++i) {
     triangles_.push_back({corners[0], corners[i - 1], corners[i]});

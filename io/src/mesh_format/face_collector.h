@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,9 @@ class FaceCollector {
   /// back from `highest_position`. Returns what is wrong with it and the remedy, empty where
   /// nothing is.
   std::string add(const std::vector<std::int64_t>& corners, std::uint64_t position);
+
+  /// The same of a triangle. False, and nothing is added, where add() has something to say.
+  bool add_triangle(const std::array<std::int64_t, 3>& corners, std::uint64_t position);
 
   /// The highest vertex any face names and where that was first; -1 without faces.
   std::int64_t highest() const noexcept { return highest_; }

@@ -71,10 +71,10 @@ Result<void> write_glb(Chunks& chunks, const TriangleMesh& mesh, const WriteOpti
   chunks.text("glTF").raw(std::uint32_t{2}).raw(size(whole));
   chunks.raw(size(json.size())).text("JSON").text(json);
   chunks.raw(size(binary)).text(std::string_view("BIN\0", 4));
-  Result<void> written =
-      write_each(chunks, mesh.positions, [&](const Vec3& p) { chunks.raw(mesh::floats_of(p)); });
+  Result<void> written = write_each(chunks, mesh.positions,
+                                    [](const Vec3& p, Piece& to) { to.raw(mesh::floats_of(p)); });
   if (!written) return written;
-  return write_each(chunks, mesh.triangles, [&](const Triangle& t) { chunks.raw(t); });
+  return write_each(chunks, mesh.triangles, [](const Triangle& t, Piece& to) { to.raw(t); });
 }
 
 }  // namespace argil::io

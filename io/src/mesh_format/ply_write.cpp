@@ -22,13 +22,13 @@ Result<void> write_ply(Chunks& chunks, const TriangleMesh& mesh, const WriteOpti
   chunks.text("element face ");
   chunks.number(mesh.triangles.size());
   chunks.text("\nproperty list uchar int vertex_indices\nend_header\n");
-  Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p) {
-    chunks.raw(mesh::floats_of(p));
-    if (has_colors) chunks.raw(options.colors[static_cast<std::size_t>(&p - first)]);
+  Result<void> written = write_each(chunks, mesh.positions, [&](const Vec3& p, Piece& to) {
+    to.raw(mesh::floats_of(p));
+    if (has_colors) to.raw(options.colors[static_cast<std::size_t>(&p - first)]);
   });
   if (!written) return written;
   return write_each(chunks, mesh.triangles,
-                    [&](const Triangle& t) { chunks.raw(std::uint8_t{3}).raw(t); });
+                    [](const Triangle& t, Piece& to) { to.raw(std::uint8_t{3}).raw(t); });
 }
 
 }  // namespace argil::io

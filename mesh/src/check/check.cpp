@@ -10,9 +10,12 @@
 #include <exception>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include <tbb/task_group.h>
 
 #include "argil/core/no_throw.h"
 #include "argil/mesh/compact.h"
@@ -28,6 +31,22 @@
 namespace argil::mesh {
 namespace {
 
+/// Runs `other` on a thread of its own while `own` runs on this one; what either throws is thrown
+/// when both have ended.
+template <class Other, class Own>
+void run_beside(const Other& other, const Own& own) {
+  tbb::task_group group;
+  group.run(other);
+  std::exception_ptr thrown;
+  try {
+    own();
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  group.wait();
+  if (thrown) std::rethrow_exception(thrown);
+}
+
 class MeshCheck {
  public:
   explicit MeshCheck(const TriangleMesh& mesh) : mesh_(mesh) {}
@@ -39,11 +58,17 @@ class MeshCheck {
   bool usable();
   void judge_edges(const EdgeTable& edges);
   void judge_vertices(const EdgeTable& edges);
-  void judge_triangles(const Pace& pace);
+  /// Triangles that are wrong by themselves or with others.
+  struct Faults {
+    std::vector<std::uint32_t> degenerate;
+    std::vector<std::uint32_t> duplicate;
+    std::vector<TrianglePair> crossing;
+  };
+  Faults find_faults(const Pace& pace) const;
+  void tell(const Faults& faults);
   void judge_outward(const PartsAndVolumes& all);
   void tell_inward(const MeshParts& parts);
   void tell(const PrintFindings& found);
-  void find_duplicates();
   void add(const std::string& kind, const Vec3& at_mm, double size_mm);
   void mark(std::size_t triangle, Mark as) noexcept;
   void add_intersection(std::size_t a, std::size_t b);
@@ -143,15 +168,6 @@ void MeshCheck::judge_vertices(const EdgeTable& edges) {
   verdict_.euler = vertices - static_cast<std::int64_t>(edges.size()) + triangles;
 }
 
-void MeshCheck::find_duplicates() {
-  const std::vector<std::uint32_t> duplicates = repeated_triangles(mesh_);
-  verdict_.duplicate = static_cast<std::int64_t>(duplicates.size());
-  for (const std::uint32_t t : duplicates) {
-    mark(t, Mark::broken);
-    add("duplicate", middle(corners_of(mesh_, t)), longest_side(corners_of(mesh_, t)));
-  }
-}
-
 /// Where the boxes of two triangles overlap is where they meet, near enough to find it.
 void MeshCheck::add_intersection(std::size_t a, std::size_t b) {
   mark(a, Mark::broken);
@@ -167,19 +183,28 @@ void MeshCheck::add_intersection(std::size_t a, std::size_t b) {
   add("self_intersection", common.center(), length(common.size()));
 }
 
-void MeshCheck::judge_triangles(const Pace& pace) {
-  const std::vector<std::uint32_t> degenerate = degenerate_triangles(mesh_);
-  assert(std::is_sorted(degenerate.begin(), degenerate.end()));
-  verdict_.degenerate = static_cast<std::int64_t>(degenerate.size());
-  for (const std::uint32_t t : degenerate) {
-    mark(t, Mark::broken);
-    add("degenerate", middle(corners_of(mesh_, t)), longest_side(corners_of(mesh_, t)));
-  }
-  find_duplicates();
-  const auto pairs = crossing_pairs(mesh_, degenerate, is_flat_, pace);
-  assert(std::is_sorted(pairs.begin(), pairs.end()));
-  verdict_.self_intersections = static_cast<std::int64_t>(pairs.size());
-  for (const auto& [a, b] : pairs) add_intersection(a, b);
+MeshCheck::Faults MeshCheck::find_faults(const Pace& pace) const {
+  Faults faults;
+  faults.degenerate = degenerate_triangles(mesh_);
+  assert(std::is_sorted(faults.degenerate.begin(), faults.degenerate.end()));
+  faults.duplicate = repeated_triangles(mesh_);
+  faults.crossing = crossing_pairs(mesh_, faults.degenerate, is_flat_, pace);
+  assert(std::is_sorted(faults.crossing.begin(), faults.crossing.end()));
+  return faults;
+}
+
+void MeshCheck::tell(const Faults& faults) {
+  const auto tell_each = [&](const std::vector<std::uint32_t>& triangles, const char* kind) {
+    for (const std::uint32_t t : triangles) {
+      mark(t, Mark::broken);
+      add(kind, middle(corners_of(mesh_, t)), longest_side(corners_of(mesh_, t)));
+    }
+    return static_cast<std::int64_t>(triangles.size());
+  };
+  verdict_.degenerate = tell_each(faults.degenerate, "degenerate");
+  verdict_.duplicate = tell_each(faults.duplicate, "duplicate");
+  verdict_.self_intersections = static_cast<std::int64_t>(faults.crossing.size());
+  for (const auto& [a, b] : faults.crossing) add_intersection(a, b);
 }
 
 void MeshCheck::judge_outward(const PartsAndVolumes& all) {
@@ -251,17 +276,28 @@ MeshVerdict MeshCheck::judge(const Printer& printer, std::int64_t file_bytes,
   if (!usable()) return verdict_;
   pace.at(0.0);
   verdict_.marks.resize(mesh_.triangles.size(), Mark::none);
-  is_flat_ = flat_fans(mesh_, pace.part(0.0, 0.1));
-  const EdgeTable edges(mesh_);
+  std::optional<EdgeTable> table;
+  PartsAndVolumes parts;
+  Faults faults;
+  // Edges are for one thread alone, so that they go beside what takes as long on several.
+  run_beside(
+      [&] {
+        table.emplace(mesh_);
+        parts.parts = mesh_parts(mesh_, *table, false);
+        parts.volumes = part_volumes(mesh_, parts.parts);
+      },
+      [&] {
+        is_flat_ = flat_fans(mesh_, pace.part(0.0, 0.2));
+        faults = find_faults(pace.part(0.2, 0.8));
+      });
+  const EdgeTable& edges = *table;
   judge_edges(edges);
   judge_vertices(edges);
-  judge_triangles(pace.part(0.2, 0.8));
+  tell(faults);
   verdict_.volume_mm3 = signed_volume(mesh_);
   verdict_.area_mm2 = surface_area(mesh_);
   verdict_.closed = verdict_.boundary_edges == 0;
   verdict_.manifold = verdict_.nonmanifold_edges + verdict_.nonmanifold_vertices == 0;
-  PartsAndVolumes parts{mesh_parts(mesh_, edges, false), {}};
-  parts.volumes = part_volumes(mesh_, parts.parts);
   judge_outward(parts);
   verdict_.printable = verdict_.closed && verdict_.manifold && verdict_.outward &&
                        verdict_.self_intersections + verdict_.degenerate + verdict_.duplicate == 0;

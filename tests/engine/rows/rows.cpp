@@ -414,6 +414,13 @@ std::vector<float> results(const RowLoops& loops, unsigned seed) {
     const bool is_decided = (bits[1][n / 8] >> n % 8 & 1) != 0;
     all.push_back(is_decided ? out[n] : 0.0F);
   }
+  UpwindRows upwind;
+  loops.find_upwind(block, {dice() % 2 == 0 ? 1.0F : -1.0F, kVoxel, kBand, 0.8F, 0.2F}, upwind);
+  for (int row = 0; row < kLeafRows; ++row) {
+    all.push_back(static_cast<float>(upwind.told[row]));
+    all.push_back(static_cast<float>(upwind.slow[row]));
+    for (const auto& by : upwind.by) all.push_back(static_cast<float>(by[row]));
+  }
   auto feet = std::make_unique<FeetBlock>();
   loops.find_feet(wavy_block(dice, true), kVoxel, kBand, *feet);
   loops.pull(pull_job(dice), *feet);

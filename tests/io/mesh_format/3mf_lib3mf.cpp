@@ -44,6 +44,19 @@ TEST(WriteThreemf, IsReadByLib3mfAsOneManifoldMeshInMillimetres) {
   EXPECT_FALSE(file.moves);
 }
 
+/// The text of these is deflated in several pieces.
+TEST(WriteThreemf, IsReadByLib3mfWhereItIsLong) {
+  const ScratchFolder folder;
+  const TriangleMesh mesh = test::ball_mesh(20.0, 6);
+  ASSERT_TRUE(write_mesh(folder / "a.3mf", mesh));
+  const test::Lib3mfFile file = test::lib3mf_file(folder / "a.3mf");
+  ASSERT_TRUE(file.is_read);
+  ASSERT_EQ(file.objects.size(), 1U);
+  EXPECT_EQ(file.objects[0].vertices, static_cast<std::int64_t>(mesh.positions.size()));
+  EXPECT_EQ(file.objects[0].triangles, static_cast<std::int64_t>(mesh.triangles.size()));
+  EXPECT_TRUE(file.objects[0].manifold);
+}
+
 TEST(WriteThreemf, CarriesTheCertificateAsMetadata) {
   const ScratchFolder folder;
   ClayOptions voxels;

@@ -2,6 +2,7 @@
 #include "format/xml_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,6 +82,47 @@ TEST(XmlScan, HoldsAPieceOfALongText) {
   std::string elements = "-->";
   for (int i = 0; i < 10'000; ++i) elements += "<v/>";
   EXPECT_LT(longest_held(elements + "<!--", 100), 1'000'000U);
+}
+
+/// The same values whether plain elements are passed or not, wherever the text is cut; what is not
+/// quite plain is left to next().
+TEST(XmlScan, PassesPlainElementsAsNextReadsThem) {
+  constexpr XmlScan::PlainForm kForm{"<v x=\"", "\" y=\"", "\" z=\"", "\""};
+  constexpr std::string_view kElements =
+      "<all>\n <v x=\"1\" y=\"2\" z=\"3\"/>\n<v x=\"4\" y=\"\" z=\"6\" /><v x='7' y='8' z='9'/>"
+      "<v x=\"a\" y=\"b\" z=\"c\" w=\"d\"/><v x=\"e\" y=\"f\" z=\"g\"></v><v y=\"i\" x=\"h\" "
+      "z=\"j\"/>"
+      "<!-- --><v x=\"k\" y=\"l\" z=\"m\"/></all>";
+  const auto values_of = [&](std::size_t size, bool passes, std::size_t& passed) {
+    XmlScan xml(in_pieces(kElements, size));
+    std::vector<std::string> all;
+    const auto add = [&](std::string_view x, std::string_view y, std::string_view z) {
+      all.push_back(std::string(x) + " " + std::string(y) + " " + std::string(z));
+    };
+    for (;;) {
+      std::array<std::string_view, 3> values;
+      while (passes && xml.is_plain(kForm, values)) {
+        add(values[0], values[1], values[2]);
+        xml.pass_plain();
+        ++passed;
+      }
+      const XmlScan::Event event = xml.next();
+      if (event == XmlScan::Event::open && xml.name() == "v") {
+        add(xml.attribute("x"), xml.attribute("y"), xml.attribute("z"));
+      }
+      if (event == XmlScan::Event::end) return all;
+      if (event == XmlScan::Event::error) return std::vector{xml.problem()};
+    }
+  };
+  std::size_t passed = 0;
+  const auto told = values_of(kElements.size(), false, passed);
+  EXPECT_THAT(told,
+              testing::ElementsAre("1 2 3", "4  6", "7 8 9", "a b c", "e f g", "h i j", "k l m"));
+  EXPECT_EQ(values_of(kElements.size(), true, passed), told);
+  EXPECT_EQ(passed, 2U);  // behind a comment next() comes first
+  for (std::size_t size = 1; size < kElements.size(); ++size) {
+    EXPECT_EQ(values_of(size, true, passed), told) << size;
+  }
 }
 
 TEST(XmlScan, RefusesWhatNoProgramWrites) {

@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "argil/mesh/rounding.h"
 
@@ -204,6 +205,32 @@ TEST(ReadStl, NamesTheByteOfANan) {
               HasSubstr("a.stl: byte 108: a coordinate of triangle 1 is NaN"));
 }
 
+/// Vertices are numbered by the first triangle that has them, and the first fault is told, also
+/// where many triangles are read at once.
+TEST(ReadStl, OfManyTrianglesIsAsOfFew) {
+  constexpr std::uint32_t kCount = 300'000;
+  std::vector<float> strip;
+  for (std::uint32_t t = 0; t < kCount; ++t) {
+    // Every corner but two is one of the triangle before.
+    for (std::uint32_t corner = t; corner < t + 3; ++corner) {
+      strip.insert(strip.end(),
+                   {1e-3F * static_cast<float>(corner), static_cast<float>(corner % 2), 0.0F});
+    }
+  }
+  for (const std::size_t threads : {1, 3}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const Result<TriangleMesh> mesh = read_text("a.stl", binary_stl(kCount, strip));
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    ASSERT_EQ(mesh.value().positions.size(), kCount + 2);
+    for (std::uint32_t t = 0; t < kCount; ++t) {
+      ASSERT_EQ(mesh.value().triangles[t], (Triangle{t, t + 1, t + 2}));
+    }
+  }
+  strip[9 * 20'000] = std::numeric_limits<float>::quiet_NaN();
+  strip[9 * 290'000] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(error_of("a.stl", binary_stl(kCount, strip)), HasSubstr("of triangle 20001 is NaN"));
+}
+
 TEST(ReadStl, NamesTheLineInAscii) {
   EXPECT_THAT(error_of("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n"),
               HasSubstr("a.stl:4: 'x' is not a number"));
@@ -359,9 +386,8 @@ TEST(ReadGlbSlow, RefusesVerticesPlacedWithoutEnd) {
 }
 
 // The bit-for-bit comparison of what is read back with what was given, rounded to float.
-TEST(WriteMesh, ReadsBackEveryFormatBitForBit) {
+void expect_every_format_reads_back(const TriangleMesh& given) {
   const ScratchFolder folder;
-  const TriangleMesh given = test::torus_mesh(20.0, 7.0, 48, 31);
   const TriangleMesh rounded = mesh::rounded_to_float(given);
   for (const char* name : {"a.obj", "a.ply", "a.glb", "a.3mf"}) {
     ASSERT_TRUE(write_mesh(folder / name, given));
@@ -384,13 +410,27 @@ TEST(WriteMesh, ReadsBackEveryFormatBitForBit) {
   }
 }
 
-TEST(WriteMesh, GivesTheSameBytesEveryTime) {
+TEST(WriteMesh, ReadsBackEveryFormatBitForBit) {
+  expect_every_format_reads_back(test::torus_mesh(20.0, 7.0, 48, 31));
+}
+
+/// Of a size that files are written, and STL is read, in several pieces.
+TEST(WriteMesh, ReadsBackInSeveralPiecesBitForBit) {
+  expect_every_format_reads_back(test::ball_mesh(10.0, 6));
+}
+
+/// In files of several pieces, the last of them not whole.
+TEST(WriteMeshGolden, GivesTheSameBytesForAnyThreads) {
   const ScratchFolder folder;
-  const TriangleMesh mesh = test::ball_mesh(10.0, 3);
+  const TriangleMesh mesh = test::ball_mesh(10.0, 6);
   for (const std::string ending : {".obj", ".ply", ".glb", ".3mf", ".stl"}) {
-    ASSERT_TRUE(write_mesh(folder / ("a" + ending), mesh));
-    ASSERT_TRUE(write_mesh(folder / ("b" + ending), mesh));
-    EXPECT_EQ(test::content_of(folder / ("a" + ending)), test::content_of(folder / ("b" + ending)));
+    for (const std::size_t threads : {1, 2, 7}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      ASSERT_TRUE(write_mesh(folder / (std::to_string(threads) + ending), mesh));
+    }
+    const std::string alone = test::content_of(folder / ("1" + ending));
+    EXPECT_EQ(test::content_of(folder / ("2" + ending)), alone) << ending;
+    EXPECT_EQ(test::content_of(folder / ("7" + ending)), alone) << ending;
   }
 }
 
