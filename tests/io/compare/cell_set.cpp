@@ -22,10 +22,11 @@ namespace {
 constexpr double kBorderVoxelMm = 0.2;
 
 Clay with_level_borders() {
-  // Level where it is flat, with a wavy ball on top.
+  // Coarse where it is flat, with faces in lattice planes of levels 0 to 3, where triangles lie a
+  // little outside of their cells; and a wavy ball on top.
   const auto distance = [](const Vec3& p) {
-    const double slab = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - 5.03;
-    const double ball = length(p - Vec3{0.3, 0.4, 5.0}) - 1.5 -
+    const double slab = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) - 4.8;
+    const double ball = length(p - Vec3{0.3, 0.4, 4.8}) - 1.5 -
                         0.1 * std::sin(6.0 * p.x) * std::sin(6.0 * p.y) * std::sin(6.0 * p.z);
     return std::min(slab, ball);
   };
@@ -60,8 +61,7 @@ std::vector<SurfaceCell> cells_of(const Clay& clay, const TriangleMesh& surface)
   return surface_cells(surface, clay, Pace(nobody, "cells"));
 }
 
-TEST(SurfaceCells, AreThoseThatPhiPassesThroughAtAllLevelsEachOnce) {
-  const Clay clay = with_level_borders();
+void expect_all_crossed_once(const Clay& clay) {
   const std::vector<SurfaceCell> cells = cells_of(clay, extract_surface(clay));
   std::set<BorderCell> found;
   for (const SurfaceCell& cell : cells) {
@@ -76,6 +76,16 @@ TEST(SurfaceCells, AreThoseThatPhiPassesThroughAtAllLevelsEachOnce) {
   EXPECT_GT(of_level(0), 500);
   EXPECT_GT(of_level(1) + of_level(2) + of_level(3), 500);
   EXPECT_EQ(found, crossed);
+}
+
+TEST(SurfaceCells, AreThoseThatPhiPassesThroughAtAllLevelsEachOnce) {
+  expect_all_crossed_once(with_level_borders());
+}
+
+TEST(SurfaceCells, AreThoseOfABlocksFacesAtAllLevels) {
+  ClayOptions options;
+  options.voxel_mm = kBorderVoxelMm;
+  expect_all_crossed_once(Clay::block({12.8, 9.6, 9.2}, options).value());
 }
 
 TEST(SurfaceCells, AreTheSameForAnyNumberOfThreads) {
