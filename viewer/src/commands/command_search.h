@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "document/document_thread.h"
+#include "document/tool_info.h"
+#include "input/input_event.h"
+
+namespace argil::viewer {
+
+enum class Command;
+struct UiState;
+
+/// What the search finds: a command, or a tool to be chosen.
+using SearchAim = std::variant<Command, const ToolInfo*>;
+
+struct SearchEntry {
+  SearchAim aim;
+  std::string title;
+  std::string place;  ///< the menu that lists it, or "Tool"
+  std::string chord;  ///< "" none
+};
+
+/// What the window remembers of the search.
+struct SearchChoice {
+  static constexpr std::size_t kMostRecent = 8;
+  bool is_open = false;
+  std::string text;               ///< ASCII, as it is typed
+  std::size_t at = 0;             ///< of what is found
+  std::vector<SearchAim> recent;  ///< what was done through it, newest first
+};
+
+/// How well a text is meant by what was typed: its letters must stand there in their order, in any
+/// case, blanks left out. More for those that follow each other and those that begin a word; below
+/// zero where one is missing.
+int match_of(std::string_view typed, std::string_view text);
+
+/// All commands but the search itself, and all tools; those that match, the best first. Without a
+/// text those that were done last come first, then all in the order of the menus.
+std::vector<SearchEntry> found_entries(const SearchChoice& choice);
+
+/// A key or a letter while the search is open: types, moves, does what is marked, or closes it.
+/// True: it is taken.
+bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document);
+
+/// Whether it can be done now.
+bool is_possible(const SearchEntry& entry, const UiState& ui);
+/// Closes the search and does it; what cannot be done now leaves the search open.
+void do_found(const SearchEntry& entry, UiState& ui, DocumentThread& document);
+
+}  // namespace argil::viewer

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/measure.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "commands/piece_gestures.h"
+#include "commands/ui_state.h"
+
+namespace argil::viewer {
+namespace {
+
+/// Where a piece is shown; nothing while it is hidden or gone.
+std::optional<Placement> placement_shown(PieceKey key, const UiState& ui) {
+  if (!ui.clay.pieces) return std::nullopt;
+  const PieceList& list = *ui.clay.pieces;
+  if (list.active_piece().key == key && list.active_piece().look.is_visible) {
+    return shown_placement(ui);  // also while it is dragged
+  }
+  for (const PieceState& piece : list.pieces) {
+    if (piece.key == key && piece.look.is_visible) return piece.look.placement;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* name_of(MeasureKind kind) noexcept {
+  switch (kind) {
+    case MeasureKind::distance:
+      return "Distance";
+    case MeasureKind::angle:
+      return "Angle";
+    case MeasureKind::thickness:
+      break;
+  }
+  return "Thickness";
+}
+
+std::string word_of(MeasureKind kind) {
+  std::string word = name_of(kind);
+  word.front() = static_cast<char>(word.front() - 'A' + 'a');
+  return word;
+}
+
+std::optional<std::vector<Vec3>> places_of(std::span<const MeasurePoint> points,
+                                           const UiState& ui) {
+  std::vector<Vec3> places;
+  for (const MeasurePoint& point : points) {
+    const auto at = placement_shown(point.piece, ui);
+    if (!at) return std::nullopt;
+    places.push_back(placed(*at, point.own_mm));
+  }
+  return places;
+}
+
+double measured(MeasureKind kind, std::span<const Vec3> places) {
+  if (kind != MeasureKind::angle) {
+    assert(places.size() == 2);
+    return length(places[1] - places[0]);
+  }
+  assert(places.size() == 3);
+  const Vec3 one = places[0] - places[1];
+  const Vec3 other = places[2] - places[1];
+  return 180.0 / std::numbers::pi * std::atan2(length(cross(one, other)), dot(one, other));
+}
+
+std::string measured_text(MeasureKind kind, double value) {
+  char text[48];
+  const char* format = kind == MeasureKind::angle ? "%.1f\u00b0"
+                       : value < 1.0              ? "%.3f mm"
+                                                  : "%.2f mm";
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+Measurement* find_measurement(MeasureChoice& choice, std::int64_t number) {
+  const auto found =
+      std::find_if(choice.list.begin(), choice.list.end(),
+                   [number](const Measurement& each) { return each.number == number; });
+  return found == choice.list.end() ? nullptr : &*found;
+}
+
+void choose_measure(MeasureKind kind, UiState& ui) {
+  if (ui.measures.tool == kind) return leave_measuring(ui);
+  ui.measures.begun.clear();
+  ui.measures.hover.clear();
+  ui.measures.tool = kind;
+  ui.measures.has_marks = true;
+  // Whoever has hidden the panels wants to see the clay.
+  if (ui.panels.has_tools) ui.panels.has_measures = true;
+}
+
+void leave_measuring(UiState& ui) {
+  ui.measures.tool.reset();
+  ui.measures.begun.clear();
+  ui.measures.hover.clear();
+  ui.measures.under.reset();
+  ui.measures.chosen.reset();
+}
+
+void remove_measurement(std::int64_t number, MeasureChoice& choice) {
+  std::erase_if(choice.list, [number](const Measurement& each) { return each.number == number; });
+  if (choice.chosen == number) choice.chosen.reset();
+  if (choice.under && choice.under->number == number) choice.under.reset();
+}
+
+void clear_measurements(MeasureChoice& choice) {
+  choice.list.clear();
+  choice.begun.clear();
+  choice.hover.clear();
+  choice.chosen.reset();
+  choice.under.reset();
+}
+
+const char* next_pick(const MeasureChoice& choice) {
+  assert(choice.tool && choice.begun.size() < picks_of(*choice.tool));
+  if (choice.under) return "Left: drag this end";
+  if (*choice.tool == MeasureKind::thickness) return "Left: how thick it is there";
+  const bool is_angle = *choice.tool == MeasureKind::angle;
+  switch (choice.begun.size()) {
+    case 0:
+      return "Left: the first point";
+    case 1:
+      return is_angle ? "Left: the corner" : "Left: the second point";
+    default:
+      return "Left: the third point";
+  }
+}
+
+}  // namespace argil::viewer

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "commands/measure_marks.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "commands/measure.h"
+
+namespace argil::viewer {
+namespace {
+
+const Vec3 kMeasureColor{0.16, 0.62, 0.95};
+const Vec3 kChosenColor{1.0, 0.72, 0.10};
+
+/// From a line to the middle of its number, at a panel scale of 1.
+constexpr double kBesidePixels = 18.0;
+/// Of the shorter leg of an angle: where its arc is.
+constexpr double kArcPart = 0.35;
+
+/// A measurement as it is drawn, also one that is not complete.
+struct ShownMeasure {
+  MeasureKind kind = MeasureKind::distance;
+  std::vector<Vec3> places;
+  std::vector<bool> are_seen;
+  bool is_complete = true;
+  bool is_chosen = false;
+  std::optional<std::size_t> under;  ///< the end under the pointer
+};
+
+std::optional<ShownMeasure> shown(const Measurement& each, const UiState& ui) {
+  auto places = places_of(each.points, ui);
+  if (!places) return std::nullopt;
+  const MeasureChoice& choice = ui.measures;
+  ShownMeasure made{each.kind, std::move(*places), {}, true, choice.chosen == each.number, {}};
+  made.are_seen.assign(each.are_seen.begin(),
+                       each.are_seen.begin() + static_cast<std::ptrdiff_t>(each.points.size()));
+  if (choice.under && choice.under->number == each.number) made.under = choice.under->point;
+  return made;
+}
+
+/// The one that is begun, up to what lies under the pointer.
+std::optional<ShownMeasure> shown_next(const UiState& ui) {
+  const MeasureChoice& choice = ui.measures;
+  if (!choice.tool || choice.under) return std::nullopt;
+  std::vector<MeasurePoint> points = choice.begun;
+  points.insert(points.end(), choice.hover.begin(), choice.hover.end());
+  auto places = places_of(points, ui);
+  if (!places || places->empty()) return std::nullopt;
+  const std::size_t whole = *choice.tool == MeasureKind::angle ? 3 : 2;
+  ShownMeasure made{*choice.tool, std::move(*places), {}, false, true, {}};
+  made.is_complete = made.places.size() == whole;
+  made.are_seen.assign(made.places.size(), true);
+  return made;
+}
+
+std::vector<ShownMeasure> all_shown(const UiState& ui) {
+  std::vector<ShownMeasure> all;
+  if (ui.measures.has_marks) {
+    for (const Measurement& each : ui.measures.list) {
+      if (auto made = shown(each, ui)) all.push_back(std::move(*made));
+    }
+  }
+  if (auto next = shown_next(ui)) all.push_back(std::move(*next));
+  return all;
+}
+
+/// From one leg of an angle to the other, about its corner.
+std::vector<Vec3> arc_of(const std::vector<Vec3>& places) {
+  assert(places.size() == 3);
+  const Vec3 one = places[0] - places[1];
+  const Vec3 other = places[2] - places[1];
+  const double radius = kArcPart * std::min(length(one), length(other));
+  const double angle = std::atan2(length(cross(one, other)), dot(one, other));
+  const Vec3 along = normalized(one);
+  const Vec3 across = normalized(other - dot(other, along) * along);
+  if (!(radius > 0.0) || across == Vec3{}) return {};  // no angle, or a straight one
+  constexpr int kPieces = 32;
+  std::vector<Vec3> arc;
+  for (int n = 0; n <= kPieces; ++n) {
+    const double a = angle * n / kPieces;
+    arc.push_back(places[1] + radius * (std::cos(a) * along + std::sin(a) * across));
+  }
+  return arc;
+}
+
+/// Beside the middle of a line, on its upper side.
+Camera::Pixel beside(const Camera::Pixel& a, const Camera::Pixel& b, double pixels) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double far = std::hypot(dx, dy);
+  Camera::Pixel up{0.0, -1.0};
+  if (far > 1.0) up = {dy / far, -dx / far};
+  if (up.y > 0.0) up = {-up.x, -up.y};
+  // A number is wider than high: beside a steep line it needs more room.
+  const double room = pixels * (1.0 + 1.2 * std::abs(up.x));
+  return {0.5 * (a.x + b.x) + room * up.x, 0.5 * (a.y + b.y) + room * up.y};
+}
+
+Camera::Pixel label_place(const ShownMeasure& measure, const WindowPart& part, double pixels) {
+  const auto pixel_of = [&](const Vec3& place) {
+    Camera::Pixel pixel = part.camera.pixel_of(place);
+    pixel.x += part.left;
+    return pixel;
+  };
+  if (measure.kind != MeasureKind::angle) {
+    return beside(pixel_of(measure.places[0]), pixel_of(measure.places[1]), pixels);
+  }
+  const std::vector<Vec3> arc = arc_of(measure.places);
+  const Camera::Pixel corner = pixel_of(measure.places[1]);
+  if (arc.empty()) return beside(corner, corner, pixels);
+  // On the far side of the arc from the corner.
+  const Camera::Pixel middle = pixel_of(arc[arc.size() / 2]);
+  const double far = std::hypot(middle.x - corner.x, middle.y - corner.y);
+  const double by = far > 0.0 ? 1.6 * pixels / far : 0.0;
+  return {middle.x + by * (middle.x - corner.x), middle.y + by * (middle.y - corner.y)};
+}
+
+}  // namespace
+
+MeasureMarks measure_marks(const UiState& ui, const WindowPart& part) {
+  MeasureMarks marks;
+  for (const ShownMeasure& measure : all_shown(ui)) {
+    for (std::size_t n = 0; n < measure.places.size(); ++n) {
+      Camera::Pixel at = part.camera.pixel_of(measure.places[n]);
+      at.x += part.left;
+      marks.dots.push_back({at, measure.are_seen[n], measure.is_chosen, measure.under == n});
+    }
+    if (!measure.is_complete) continue;
+    const bool is_seen =
+        std::find(measure.are_seen.begin(), measure.are_seen.end(), true) != measure.are_seen.end();
+    marks.labels.push_back({label_place(measure, part, kBesidePixels * ui.panel_scale),
+                            measured_text(measure.kind, measured(measure.kind, measure.places)),
+                            is_seen, measure.is_chosen});
+  }
+  return marks;
+}
+
+void add_measure_lines(const UiState& ui, Picture& picture) {
+  for (const ShownMeasure& measure : all_shown(ui)) {
+    const Vec3& color = measure.is_chosen ? kChosenColor : kMeasureColor;
+    if (measure.places.size() > 1) picture.lines.push_back({measure.places, color});
+    if (measure.kind != MeasureKind::angle || !measure.is_complete) continue;
+    if (auto arc = arc_of(measure.places); !arc.empty()) {
+      picture.lines.push_back({std::move(arc), color});
+    }
+  }
+}
+
+}  // namespace argil::viewer
