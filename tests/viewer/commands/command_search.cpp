@@ -12,28 +12,28 @@
 namespace argil::viewer {
 namespace {
 
-SearchChoice typed(const char* text) {
+SearchChoice search_for(const char* text) {
   SearchChoice choice;
   choice.text = text;
   return choice;
 }
 
-std::string best(const char* text) {
-  const auto found = found_entries(typed(text));
+std::string best_found(const char* text) {
+  const auto found = found_entries(search_for(text));
   return found.empty() ? "" : found.front().place + ": " + found.front().title;
 }
 
 TEST(CommandSearch, FindsByLettersInTheirOrder) {
-  EXPECT_EQ(best("front"), "View: Front");
-  EXPECT_EQ(best("FRNT"), "View: Front");
-  EXPECT_EQ(best("dtb"), "Piece: Drop to bed");
-  EXPECT_EQ(best("export"), "File: Export for printing...");
-  EXPECT_EQ(best("thick"), "Measure: Thickness");
-  EXPECT_EQ(best("smoo"), "Tool: Smooth");
-  EXPECT_EQ(best("mask inv"), "Mask: Invert");
-  EXPECT_EQ(best("invert mask"), "Mask: Invert");
-  EXPECT_EQ(best("print"), "View: Print");
-  EXPECT_EQ(best("qqq"), "");
+  EXPECT_EQ(best_found("front"), "View: Front");
+  EXPECT_EQ(best_found("FRNT"), "View: Front");
+  EXPECT_EQ(best_found("dtb"), "Piece: Drop to bed");
+  EXPECT_EQ(best_found("export"), "File: Export for printing...");
+  EXPECT_EQ(best_found("thick"), "Measure: Thickness");
+  EXPECT_EQ(best_found("smoo"), "Tool: Smooth");
+  EXPECT_EQ(best_found("mask inv"), "Mask: Invert");
+  EXPECT_EQ(best_found("invert mask"), "Mask: Invert");
+  EXPECT_EQ(best_found("print"), "View: Print");
+  EXPECT_EQ(best_found("qqq"), "");
 }
 
 TEST(CommandSearch, OffersEveryCommandAndEveryToolOnce) {

@@ -16,7 +16,7 @@
 namespace argil::viewer {
 namespace {
 
-constexpr double kRadiusMm = 10.0;
+constexpr double kMeasuredBallMm = 10.0;
 
 // Between its nodes the stored distance to a ball of forty voxels is up to a fiftieth of a voxel
 // off, and so is each point.
@@ -25,7 +25,7 @@ constexpr double kRadiusMm = 10.0;
 class MeasureTest : public GesturesTest {
  protected:
   void SetUp() override {
-    document_.send(NewClay{{io::StartShape::Kind::ball, {kRadiusMm, 0.0, 0.0}, {}}});
+    document_.send(NewClay{{io::StartShape::Kind::ball, {kMeasuredBallMm, 0.0, 0.0}, {}}});
     ui_.camera.resize(200, 200);
     ui_.camera.look_from({0.0, -1.0, 0.0}, {0.0, 0.0, 1.0});
     Box3 box;
@@ -62,7 +62,7 @@ class MeasureTest : public GesturesTest {
     const Ray ray = ui_.camera.ray_at(pixel);
     const Vec3 d = normalized(ray.direction);
     const double b = dot(ray.origin_mm, d);
-    const double c = dot(ray.origin_mm, ray.origin_mm) - kRadiusMm * kRadiusMm;
+    const double c = dot(ray.origin_mm, ray.origin_mm) - kMeasuredBallMm * kMeasuredBallMm;
     return ray.origin_mm + (-b - std::sqrt(b * b - c)) * d;
   }
 
@@ -118,7 +118,7 @@ TEST_F(MeasureTest, OneClickIsAThicknessThroughTheMiddleOfTheBall) {
   perform(Command::measure_thickness, ui_, document_);
   click(left_);
   ASSERT_EQ(ui_.measures.list.size(), 1U);
-  EXPECT_NEAR(value(0), 2.0 * kRadiusMm, 0.05 * voxel_);
+  EXPECT_NEAR(value(0), 2.0 * kMeasuredBallMm, 0.05 * voxel_);
   EXPECT_EQ(ui_.measures.hover.size(), 2U) << "it is shown under the pointer as well";
 }
 
@@ -155,6 +155,22 @@ TEST_F(MeasureTest, AnEndThatIsDraggedIsMeasuredAnewAndEscapePutsItBack) {
   mouse_at(InputEvent::Kind::release, {3.0, 3.0});
   settle();
   EXPECT_NEAR(value(0), length(on_ball(left_) - on_ball(top_)), 0.02 * voxel_);
+}
+
+TEST_F(MeasureTest, AClickOnAnEndBeginsExactlyThere) {
+  perform(Command::measure_distance, ui_, document_);
+  click(left_);
+  click(right_);
+  perform(Command::measure_angle, ui_, document_);
+  click({left_.x + 4.0, left_.y});
+  ASSERT_EQ(ui_.measures.begun.size(), 1U);
+  click(top_);
+  click({right_.x, right_.y + 4.0});
+  ASSERT_EQ(ui_.measures.list.size(), 2U);
+  const auto& distance = ui_.measures.list[0].points;
+  const auto& angle = ui_.measures.list[1].points;
+  EXPECT_EQ(angle[0], distance[0]);
+  EXPECT_EQ(angle[2], distance[1]);
 }
 
 TEST_F(MeasureTest, DeleteRemovesWhatIsChosenAndNoPiece) {

@@ -13,15 +13,15 @@
 namespace argil::viewer {
 namespace {
 
-constexpr double kVoxelMm = 0.25;
+constexpr double kPickVoxelMm = 0.25;
 
-ClayOptions quarter() {
+ClayOptions quarter_options() {
   ClayOptions options;
-  options.voxel_mm = kVoxelMm;
+  options.voxel_mm = kPickVoxelMm;
   return options;
 }
 
-Sculpture ball_of_10() { return Sculpture(Clay::ball(10.0, quarter()).value(), {"Ball"}); }
+Sculpture ball_of_10() { return Sculpture(Clay::ball(10.0, quarter_options()).value(), {"Ball"}); }
 
 void add(Sculpture& sculpture, Clay clay, const char* name, const Placement& at) {
   AddPiece add;
@@ -32,7 +32,7 @@ void add(Sculpture& sculpture, Clay clay, const char* name, const Placement& at)
 }
 
 /// Where a ray meets a ball about the origin; NaN beside it.
-Vec3 on_ball(const Ray& ray, double radius) {
+Vec3 on_a_ball(const Ray& ray, double radius) {
   const Vec3 d = normalized(ray.direction);
   const double b = dot(ray.origin_mm, d);
   const double c = dot(ray.origin_mm, ray.origin_mm) - radius * radius;
@@ -47,7 +47,7 @@ TEST(MeasurePick, PolesOfABallOf10AreTwentyApart) {
     const auto other = measure_pick(ball, {-200.0 * axis, axis}, {});
     ASSERT_TRUE(one && other);
     // On the axes lie nodes; between them the field of a ball is up to a fiftieth of a voxel off.
-    const double bound = (axis.z == 1.0 || axis.x == 1.0 ? 0.001 : 0.02) * kVoxelMm;
+    const double bound = (axis.z == 1.0 || axis.x == 1.0 ? 0.001 : 0.02) * kPickVoxelMm;
     EXPECT_NEAR(length(one->own_mm - other->own_mm), 20.0, bound);
     EXPECT_NEAR(one->distance_mm, 190.0, bound) << "whatever the direction's length";
     EXPECT_GT(dot(one->own_normal, axis), 0.999);
@@ -58,44 +58,44 @@ TEST(MeasurePick, PolesOfABallOf10AreTwentyApart) {
 }
 
 TEST(MeasurePick, ThicknessOfABallIsItsDiameterAndOfABoxItsSide) {
-  const Clay ball = Clay::ball(10.0, quarter()).value();
+  const Clay ball = Clay::ball(10.0, quarter_options()).value();
   for (const Vec3& out : {Vec3{0.0, 0.0, 1.0}, normalized(Vec3{0.3, -0.8, 0.52})}) {
     const auto across = far_side(ball, 10.0 * out, out);
     ASSERT_TRUE(across);
-    EXPECT_LT(length(*across + 10.0 * out), 0.01 * kVoxelMm);
+    EXPECT_LT(length(*across + 10.0 * out), 0.01 * kPickVoxelMm);
   }
-  const Clay box = Clay::block({24.0, 20.0, 3.0}, quarter()).value();
-  const Sculpture boxes(Clay::block({24.0, 20.0, 3.0}, quarter()).value(), {"Box"});
+  const Clay box = Clay::block({24.0, 20.0, 3.0}, quarter_options()).value();
+  const Sculpture boxes(Clay::block({24.0, 20.0, 3.0}, quarter_options()).value(), {"Box"});
   for (const double x : {-7.3, 0.0, 5.11}) {
     const auto top = measure_pick(boxes, {{x, 2.2, 90.0}, {0.0, 0.0, -1.0}}, {});
     ASSERT_TRUE(top);
     const auto across = far_side(box, top->own_mm, top->own_normal);
     ASSERT_TRUE(across);
-    EXPECT_NEAR(length(*across - top->own_mm), 3.0, 0.01 * kVoxelMm);
+    EXPECT_NEAR(length(*across - top->own_mm), 3.0, 0.01 * kPickVoxelMm);
   }
   EXPECT_FALSE(far_side(box, {0.0, 0.0, 1.5}, {0.0, 0.0, -1.0})) << "no material there";
 }
 
 /// Behind the wall lies air, then clay again: the wall alone is thick.
 TEST(MeasurePick, ThicknessEndsAtTheFirstAir) {
-  Clay ball = Clay::ball(10.0, quarter()).value();
+  Clay ball = Clay::ball(10.0, quarter_options()).value();
   ASSERT_TRUE(ball.apply(Hollow{2.0, {}}).ok());
   const Vec3 out = normalized(Vec3{0.3, -0.8, 0.52});
   const auto across = far_side(ball, 10.0 * out, out);
   ASSERT_TRUE(across);
-  EXPECT_NEAR(length(*across - 10.0 * out), 2.0, 0.1 * kVoxelMm);
+  EXPECT_NEAR(length(*across - 10.0 * out), 2.0, 0.1 * kPickVoxelMm);
 }
 
 TEST(MeasurePick, TheNearestVisiblePieceIsMetWhereItStands) {
   Sculpture sculpture = ball_of_10();
   const Placement at{{0.0, 0.0, 30.0}, normalized(Quat{1.0, 0.0, 1.0, 0.0})};
-  add(sculpture, Clay::block({4.0, 6.0, 8.0}, quarter()).value(), "Box", at);
+  add(sculpture, Clay::block({4.0, 6.0, 8.0}, quarter_options()).value(), "Box", at);
   const Ray down{{0.5, 0.5, 200.0}, {0.0, 0.0, -1.0}};
   const auto box = measure_pick(sculpture, down, {});
   ASSERT_TRUE(box);
   EXPECT_EQ(box->piece, 1U);
   // A quarter turn about y: its x, 4 mm long, stands upright.
-  EXPECT_LT(length(placed(at, box->own_mm) - Vec3{0.5, 0.5, 32.0}), 0.01 * kVoxelMm);
+  EXPECT_LT(length(placed(at, box->own_mm) - Vec3{0.5, 0.5, 32.0}), 0.01 * kPickVoxelMm);
   EXPECT_GT(turned(at, box->own_normal).z, 0.999);
   ChangePiece hide{"Box"};
   hide.is_visible = false;
@@ -103,7 +103,7 @@ TEST(MeasurePick, TheNearestVisiblePieceIsMetWhereItStands) {
   const auto ball = measure_pick(sculpture, down, {});
   ASSERT_TRUE(ball);
   EXPECT_EQ(ball->piece, 0U);
-  EXPECT_LT(length(ball->own_mm - on_ball(down, 10.0)), 0.01 * kVoxelMm);
+  EXPECT_LT(length(ball->own_mm - on_a_ball(down, 10.0)), 0.01 * kPickVoxelMm);
 }
 
 TEST(MeasurePick, ASliceIsMetInItsMaterialAndTheHalfBeforeItIsNot) {
@@ -122,7 +122,7 @@ TEST(MeasurePick, ASliceIsMetInItsMaterialAndTheHalfBeforeItIsNot) {
   const auto back = measure_pick(ball, {{0.0, 100.0, 0.0}, {0.0, -1.0, 0.0}}, seen);
   ASSERT_TRUE(back);
   EXPECT_FALSE(back->is_on_slice);
-  EXPECT_NEAR(back->own_mm.y, 10.0, 0.01 * kVoxelMm);
+  EXPECT_NEAR(back->own_mm.y, 10.0, 0.01 * kPickVoxelMm);
   // What only the part that is gone would have stopped goes by; so does what looks away.
   EXPECT_FALSE(measure_pick(ball, {{-50.0, 1.0, 0.0}, {1.0, 0.0, 0.0}}, seen));
   EXPECT_FALSE(measure_pick(ball, {{9.0, 60.0, 0.0}, normalized(Vec3{0.0, -1.0, 0.0})},

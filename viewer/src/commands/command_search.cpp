@@ -18,7 +18,7 @@ constexpr int kFollowsScore = 6;
 constexpr int kWordScore = 8;
 constexpr int kMiss = -1'000'000;
 
-int letter_of(char c) { return std::tolower(static_cast<unsigned char>(c)); }
+int lower_letter(char c) { return std::tolower(static_cast<unsigned char>(c)); }
 
 bool begins_word(std::string_view text, std::size_t at) {
   return at == 0 || std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0;
@@ -32,26 +32,26 @@ std::string without_blanks(std::string_view typed) {
   return letters;
 }
 
-SearchEntry entry_of(const CommandInfo& info) {
+SearchEntry search_entry(const CommandInfo& info) {
   return {info.command, info.title, info.menu, info.chord};
 }
 
-SearchEntry entry_of(const ToolInfo& info) {
+SearchEntry search_entry(const ToolInfo& info) {
   return {&info, std::string(info.title), "Tool",
           info.key == kNoKey ? std::string() : std::string(1, info.key)};
 }
 
-std::vector<SearchEntry> all_entries() {
+std::vector<SearchEntry> all_search_entries() {
   std::vector<SearchEntry> all;
   for (const CommandInfo& info : command_infos()) {
-    if (info.command != Command::search) all.push_back(entry_of(info));
+    if (info.command != Command::search) all.push_back(search_entry(info));
   }
-  for (const ToolInfo& info : tool_infos()) all.push_back(entry_of(info));
+  for (const ToolInfo& info : tool_infos()) all.push_back(search_entry(info));
   return all;
 }
 
 /// Its place among those that were done last; behind all of them for any other.
-std::size_t age_of(const SearchEntry& entry, const SearchChoice& choice) {
+std::size_t search_age(const SearchEntry& entry, const SearchChoice& choice) {
   const auto at = std::find(choice.recent.begin(), choice.recent.end(), entry.aim);
   return static_cast<std::size_t>(at - choice.recent.begin());
 }
@@ -63,7 +63,7 @@ void move_mark(int by, SearchChoice& choice) {
   choice.at = static_cast<std::size_t>((at + by + count) % count);
 }
 
-void type(SearchChoice& choice, unsigned character) {
+void type_letter(SearchChoice& choice, unsigned character) {
   constexpr std::size_t kMostLetters = 64;
   if (character < ' ' || character > '~' || choice.text.size() >= kMostLetters) return;
   choice.text.push_back(static_cast<char>(character));
@@ -84,7 +84,7 @@ int match_of(std::string_view typed, std::string_view text) {
     best = kMiss;
     for (std::size_t n = 0; n < text.size(); ++n) {
       const int follows = l > 0 && n > 0 ? ends[n - 1] + kFollowsScore : kMiss;
-      if (letter_of(letters[l]) == letter_of(text[n])) {
+      if (lower_letter(letters[l]) == lower_letter(text[n])) {
         next[n] =
             std::max(before, follows) + kLetterScore + (begins_word(text, n) ? kWordScore : 0);
         best = std::max(best, next[n]);
@@ -103,16 +103,16 @@ std::vector<SearchEntry> found_entries(const SearchChoice& choice) {
     std::size_t age = 0;
   };
   std::vector<Scored> found;
-  for (SearchEntry& entry : all_entries()) {
+  for (SearchEntry& entry : all_search_entries()) {
     const int in_title = match_of(choice.text, entry.title);
     const int in_all = std::max(match_of(choice.text, entry.title + " " + entry.place),
                                 match_of(choice.text, entry.place + " " + entry.title));
     if (in_title < 0 && in_all < 0) continue;
-    const std::size_t age = age_of(entry, choice);
+    const std::size_t age = search_age(entry, choice);
     // Of equal matches the one that was done lately is meant, a title rather than a menu, and a
-    // short one.
-    int score = 100 * std::max(in_title, in_all) - static_cast<int>(entry.title.size());
-    if (in_title >= 0) score += 50;
+    // short title.
+    int score = 100 * std::max(in_title, in_all);
+    if (in_title >= 0) score += 50 - static_cast<int>(entry.title.size());
     if (age < choice.recent.size()) score += 100;
     found.push_back({std::move(entry), score, age});
   }
@@ -148,7 +148,7 @@ bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document
   SearchChoice& choice = ui.search;
   if (!choice.is_open) return false;
   if (event.kind == InputEvent::Kind::text) {
-    type(choice, event.character);
+    type_letter(choice, event.character);
     return true;
   }
   if (event.kind != InputEvent::Kind::key_down) return false;

@@ -118,7 +118,7 @@ void clear_measurements(MeasureChoice& choice) {
 
 const char* next_pick(const MeasureChoice& choice) {
   assert(choice.tool && choice.begun.size() < picks_of(*choice.tool));
-  if (choice.under) return "Left: drag this end";
+  if (choice.under && choice.begun.empty()) return "Left: drag this end, or begin there";
   if (*choice.tool == MeasureKind::thickness) return "Left: how thick it is there";
   const bool is_angle = *choice.tool == MeasureKind::angle;
   switch (choice.begun.size()) {

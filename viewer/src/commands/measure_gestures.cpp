@@ -51,9 +51,13 @@ bool MeasureGestures::press(const InputEvent& event, bool is_on_clay) {
   const Camera::Pixel pixel{event.x, event.y};
   pressed_at_ = pixel;
   if (const auto end = end_under(pixel)) {
-    const Measurement* held = find_measurement(choice, end->number);
-    assert(held != nullptr);
-    held_ = Held{++last_question_, *end, held->points, held->kind == MeasureKind::thickness, false};
+    const Measurement* of = find_measurement(choice, end->number);
+    assert(of != nullptr);
+    if (!choice.begun.empty()) {
+      add_point(of->points[end->point]);
+      return true;
+    }
+    held_ = Held{++last_question_, *end, of->points, of->kind == MeasureKind::thickness, false};
     choice.chosen = end->number;
     choice.under = end;
     return true;
@@ -80,7 +84,7 @@ void MeasureGestures::release(const InputEvent& event) {
   const auto pressed = std::exchange(pressed_at_, std::nullopt);
   if (held_) {
     if (pressed) {
-      held_.reset();  // a click, which chose it
+      click_on(*std::exchange(held_, std::nullopt), pixel);
       return;
     }
     // Another number, so that an answer to the question before is not taken for the last one.
@@ -91,6 +95,16 @@ void MeasureGestures::release(const InputEvent& event) {
   }
   if (!pressed || !ui_.measures.tool || picks_of(*ui_.measures.tool) == 1) return;
   if (pixels_between(*pressed, pixel) > kClickPixels) put(pixel);
+}
+
+/// An end that was not dragged is where the next measurement begins.
+void MeasureGestures::click_on(const Held& end, const Camera::Pixel& pixel) {
+  if (!ui_.measures.tool) return;
+  if (picks_of(*ui_.measures.tool) > 1) {
+    add_point(end.before[end.end.point]);
+  } else if (!end.is_thickness) {  // else it is that thickness which was meant
+    put(pixel);
+  }
 }
 
 bool MeasureGestures::cancel() {
@@ -117,7 +131,7 @@ void MeasureGestures::remove() {
 /// The end of a measurement that is drawn nearest to a pixel.
 std::optional<MeasureEnd> MeasureGestures::end_under(const Camera::Pixel& pixel) const {
   const MeasureChoice& choice = ui_.measures;
-  if (!choice.has_marks || !choice.begun.empty()) return std::nullopt;
+  if (!choice.has_marks) return std::nullopt;
   const WindowPart part = part_at(ui_.camera, ui_.show.is_stereo, pixel);
   std::optional<MeasureEnd> nearest;
   double least = kEndPixels * ui_.panel_scale;
@@ -144,7 +158,7 @@ void MeasureGestures::ask(std::int64_t question, const Camera::Pixel& pixel) {
 }
 
 void MeasureGestures::put(const Camera::Pixel& pixel) {
-  waiting_.push_back({++last_question_, ui_.chord});
+  waiting_.push_back({++last_question_, *ui_.measures.tool, ui_.chord});
   ask(last_question_, pixel);
 }
 
@@ -166,9 +180,9 @@ void MeasureGestures::take(const MeasureAnswer& answer) {
     return each.question == answer.number;
   });
   if (asked == waiting_.end()) return;
-  const auto chord = asked->chord;
+  const Waiting put = *asked;
   waiting_.erase(asked);
-  take_point(answer, chord);
+  if (put.tool == ui_.measures.tool) take_point(answer, put.chord);
 }
 
 /// The point, and of a thickness also the one across; nothing where one is missing.
@@ -192,10 +206,7 @@ std::vector<MeasurePoint> MeasureGestures::points_of(const MeasureAnswer& answer
 }
 
 void MeasureGestures::take_point(const MeasureAnswer& answer, const std::optional<Chord>& chord) {
-  MeasureChoice& choice = ui_.measures;
-  if (!choice.tool) return;
-  const MeasureKind kind = *choice.tool;
-  const bool is_thickness = kind == MeasureKind::thickness;
+  const bool is_thickness = ui_.measures.tool == MeasureKind::thickness;
   std::vector<MeasurePoint> points = points_of(answer, chord, is_thickness);
   if (points.empty()) {
     if (is_thickness && answer.point) {
@@ -203,12 +214,27 @@ void MeasureGestures::take_point(const MeasureAnswer& answer, const std::optiona
     }
     return;
   }
-  if (!is_thickness) {
-    choice.begun.push_back(points.front());
-    if (choice.begun.size() < picks_of(kind)) return;
-    points = std::exchange(choice.begun, {});
+  if (is_thickness) {
+    add_measurement(std::move(points));
+  } else {
+    add_point(points.front());
   }
-  choice.list.push_back({++choice.last_number, kind, std::move(points)});
+}
+
+/// The next point of what was begun; the same twice is none.
+void MeasureGestures::add_point(const MeasurePoint& point) {
+  MeasureChoice& choice = ui_.measures;
+  assert(choice.tool && picks_of(*choice.tool) > 1);
+  if (!choice.begun.empty() && choice.begun.back() == point) return;
+  choice.begun.push_back(point);
+  if (choice.begun.size() == picks_of(*choice.tool)) {
+    add_measurement(std::exchange(choice.begun, {}));
+  }
+}
+
+void MeasureGestures::add_measurement(std::vector<MeasurePoint> points) {
+  MeasureChoice& choice = ui_.measures;
+  choice.list.push_back({++choice.last_number, *choice.tool, std::move(points)});
   choice.chosen = choice.last_number;
 }
 

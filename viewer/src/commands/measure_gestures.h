@@ -22,12 +22,13 @@ class MeasureGestures {
   MeasureGestures(UiState& ui, DocumentThread& document) : ui_(ui), document_(document) {}
 
   /// The left button, while a tool that measures is chosen. True: an end is held, or a point is put
-  /// there. False where neither an end nor, by `is_on_clay`, clay lies.
+  /// there, on an end exactly in its place. False where neither an end nor, by `is_on_clay`, clay
+  /// lies.
   bool press(const InputEvent& event, bool is_on_clay);
   /// Lights the end under the pointer, or moves the one that is held.
   void move(const InputEvent& event);
-  /// Lets go of it; or puts the next point there, where the pointer was dragged from the one
-  /// before.
+  /// Lets go of it, and where it was not dragged begins at it; or puts the next point there, where
+  /// the pointer was dragged from the one before.
   void release(const InputEvent& event);
   /// What is held goes back, or points that were begun are given up; false where there are none.
   bool cancel();
@@ -42,6 +43,7 @@ class MeasureGestures {
   /// A question about a point that is put there.
   struct Waiting {
     std::int64_t question = 0;
+    MeasureKind tool = MeasureKind::distance;
     std::optional<Chord> chord;  ///< through a slice, where it was asked there
   };
   /// An end that is held.
@@ -66,8 +68,11 @@ class MeasureGestures {
 
   void ask(std::int64_t question, const Camera::Pixel& pixel);
   void put(const Camera::Pixel& pixel);
+  void click_on(const Held& end, const Camera::Pixel& pixel);
   void take(const MeasureAnswer& answer);
   void take_point(const MeasureAnswer& answer, const std::optional<Chord>& chord);
+  void add_point(const MeasurePoint& point);
+  void add_measurement(std::vector<MeasurePoint> points);
   void take_end(const MeasureAnswer& answer);
   void take_sight(const MeasureAnswer& answer);
   void ask_hover(bool is_new);

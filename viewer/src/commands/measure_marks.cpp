@@ -31,7 +31,7 @@ struct ShownMeasure {
   std::optional<std::size_t> under;  ///< the end under the pointer
 };
 
-std::optional<ShownMeasure> shown(const Measurement& each, const UiState& ui) {
+std::optional<ShownMeasure> shown_measure(const Measurement& each, const UiState& ui) {
   auto places = places_of(each.points, ui);
   if (!places) return std::nullopt;
   const MeasureChoice& choice = ui.measures;
@@ -43,9 +43,9 @@ std::optional<ShownMeasure> shown(const Measurement& each, const UiState& ui) {
 }
 
 /// The one that is begun, up to what lies under the pointer.
-std::optional<ShownMeasure> shown_next(const UiState& ui) {
+std::optional<ShownMeasure> shown_next_measure(const UiState& ui) {
   const MeasureChoice& choice = ui.measures;
-  if (!choice.tool || choice.under) return std::nullopt;
+  if (!choice.tool || (choice.under && choice.begun.empty())) return std::nullopt;
   std::vector<MeasurePoint> points = choice.begun;
   points.insert(points.end(), choice.hover.begin(), choice.hover.end());
   auto places = places_of(points, ui);
@@ -61,10 +61,10 @@ std::vector<ShownMeasure> all_shown(const UiState& ui) {
   std::vector<ShownMeasure> all;
   if (ui.measures.has_marks) {
     for (const Measurement& each : ui.measures.list) {
-      if (auto made = shown(each, ui)) all.push_back(std::move(*made));
+      if (auto made = shown_measure(each, ui)) all.push_back(std::move(*made));
     }
   }
-  if (auto next = shown_next(ui)) all.push_back(std::move(*next));
+  if (auto next = shown_next_measure(ui)) all.push_back(std::move(*next));
   return all;
 }
 
@@ -88,7 +88,7 @@ std::vector<Vec3> arc_of(const std::vector<Vec3>& places) {
 }
 
 /// Beside the middle of a line, on its upper side.
-Camera::Pixel beside(const Camera::Pixel& a, const Camera::Pixel& b, double pixels) {
+Camera::Pixel label_beside(const Camera::Pixel& a, const Camera::Pixel& b, double pixels) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double far = std::hypot(dx, dy);
@@ -100,18 +100,31 @@ Camera::Pixel beside(const Camera::Pixel& a, const Camera::Pixel& b, double pixe
   return {0.5 * (a.x + b.x) + room * up.x, 0.5 * (a.y + b.y) + room * up.y};
 }
 
+/// Where a line that comes from `from` to `at` would go on.
+Camera::Pixel label_before(const Camera::Pixel& at, const Camera::Pixel& from, double pixels) {
+  const double dx = at.x - from.x;
+  const double dy = at.y - from.y;
+  const double far = std::hypot(dx, dy);
+  if (far < 4.0) return label_beside(at, at, pixels);
+  const double room = pixels * (1.0 + 1.2 * std::abs(dx) / far) / far;
+  return {at.x + room * dx, at.y + room * dy};
+}
+
 Camera::Pixel label_place(const ShownMeasure& measure, const WindowPart& part, double pixels) {
   const auto pixel_of = [&](const Vec3& place) {
     Camera::Pixel pixel = part.camera.pixel_of(place);
     pixel.x += part.left;
     return pixel;
   };
-  if (measure.kind != MeasureKind::angle) {
-    return beside(pixel_of(measure.places[0]), pixel_of(measure.places[1]), pixels);
+  if (measure.kind == MeasureKind::thickness) {
+    return label_before(pixel_of(measure.places[0]), pixel_of(measure.places[1]), pixels);
+  }
+  if (measure.kind == MeasureKind::distance) {
+    return label_beside(pixel_of(measure.places[0]), pixel_of(measure.places[1]), pixels);
   }
   const std::vector<Vec3> arc = arc_of(measure.places);
   const Camera::Pixel corner = pixel_of(measure.places[1]);
-  if (arc.empty()) return beside(corner, corner, pixels);
+  if (arc.empty()) return label_beside(corner, corner, pixels);
   // On the far side of the arc from the corner.
   const Camera::Pixel middle = pixel_of(arc[arc.size() / 2]);
   const double far = std::hypot(middle.x - corner.x, middle.y - corner.y);

@@ -139,6 +139,12 @@ void draw_hint(const UiState& ui, float screen_width) {
   ImGui::TextUnformatted(text);
 }
 
+/// The project's name, with a star where it was changed since it was saved.
+std::string file_text(const ClayState& clay) {
+  const std::string name = clay.is_untitled ? "not saved yet" : clay.file.filename().string();
+  return name + (clay.is_changed ? " *" : "");
+}
+
 /// Triangles are the renderer's: as many as are shown at this distance.
 void draw_figures(const UiState& ui, const FrameState& frame) {
   const ClayState& clay = ui.clay;
@@ -206,9 +212,8 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   if (!clay.has_clay) {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
   } else if (ui.measures.tool) {
-    ImGui::Text("%s%s   |   Measuring: Delete removes what is chosen, Esc leaves",
-                clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
-                clay.is_changed ? " *" : "");
+    ImGui::Text("%s   |   Measuring: Delete removes what is chosen, Esc leaves",
+                file_text(clay).c_str());
   } else {
     draw_figures(ui, frame);
   }

@@ -14,30 +14,30 @@
 namespace argil::viewer {
 namespace {
 
-constexpr float kMeasureWidth = 336.0F;  // units, as all sizes here
+constexpr float kMeasureWidth = 290.0F;  // units, as all sizes here
 constexpr int kMeasureRows = 4;          // without scrolling
 constexpr float kHiddenAlpha = 0.45F;    // of what lies behind clay
 const ImVec4 kEndColor{0.55F, 0.85F, 1.0F, 1.0F};
 const ImVec4 kChosenEndColor{1.0F, 0.86F, 0.35F, 1.0F};
 
-ImU32 tinted(ImVec4 color, float alpha) {
+ImU32 faded(ImVec4 color, float alpha) {
   color.w *= alpha;
   return ImGui::GetColorU32(color);
 }
 
 ImVec4 end_color(bool is_chosen) { return is_chosen ? kChosenEndColor : kEndColor; }
 
-void draw_dot(const MeasureDot& dot, ImDrawList& list) {
+void draw_measure_dot(const MeasureDot& dot, ImDrawList& list) {
   const ImVec2 at{static_cast<float>(dot.at.x), static_cast<float>(dot.at.y)};
   const float alpha = dot.is_seen ? 1.0F : kHiddenAlpha;
   const float radius = (dot.is_under_pointer ? 5.5F : 3.6F) * unit();
   // A dark rim, so that it is seen on light clay as well.
-  list.AddCircleFilled(at, radius + 1.6F * unit(), tinted({0.0F, 0.0F, 0.0F, 0.7F}, alpha), 20);
-  list.AddCircleFilled(at, radius, tinted(end_color(dot.is_chosen), alpha), 20);
+  list.AddCircleFilled(at, radius + 1.6F * unit(), faded({0.0F, 0.0F, 0.0F, 0.7F}, alpha), 20);
+  list.AddCircleFilled(at, radius, faded(end_color(dot.is_chosen), alpha), 20);
 }
 
 /// Whole wherever its line goes, as long as the line itself is in the picture.
-void draw_label(const MeasureLabel& label, const WindowPart& part, ImDrawList& list) {
+void draw_measure_label(const MeasureLabel& label, const WindowPart& part, ImDrawList& list) {
   const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
   const float margin = 4.0F * unit();
   const ImVec2 half{0.5F * size.x + margin, 0.5F * size.y + 0.6F * margin};
@@ -52,17 +52,17 @@ void draw_label(const MeasureLabel& label, const WindowPart& part, ImDrawList& l
   const float alpha = label.is_seen ? 1.0F : kHiddenAlpha;
   const ImVec2 low{at.x - half.x, at.y - half.y};
   const ImVec2 most{at.x + half.x, at.y + half.y};
-  list.AddRectFilled(low, most, tinted({0.08F, 0.08F, 0.09F, 0.82F}, alpha), margin);
+  list.AddRectFilled(low, most, faded({0.08F, 0.08F, 0.09F, 0.82F}, alpha), margin);
   if (label.is_chosen) {
-    list.AddRect(low, most, tinted(kChosenEndColor, 0.8F * alpha), margin, 0, 1.2F * unit());
+    list.AddRect(low, most, faded(kChosenEndColor, 0.8F * alpha), margin, 0, 1.2F * unit());
   }
   list.AddText({at.x - 0.5F * size.x, at.y - 0.5F * size.y},
-               tinted(end_color(label.is_chosen), alpha), label.text.c_str());
+               faded(end_color(label.is_chosen), alpha), label.text.c_str());
 }
 
 /// The three tools; true of the one that is chosen.
-void draw_kinds(UiState& ui) {
-  const float width = 96.0F * unit();
+void draw_measure_kinds(UiState& ui) {
+  const float width = 82.0F * unit();
   for (const MeasureKind kind :
        {MeasureKind::distance, MeasureKind::angle, MeasureKind::thickness}) {
     if (kind != MeasureKind::distance) ImGui::SameLine();
@@ -79,39 +79,41 @@ void draw_kinds(UiState& ui) {
 }
 
 /// One of the list; true where it shall be removed.
-bool draw_row(const Measurement& each, UiState& ui) {
+bool draw_measure_row(const Measurement& each, UiState& ui) {
   const std::string number = std::to_string(each.number);
   const auto places = places_of(each.points, ui);
   const std::string value =
       places ? measured_text(each.kind, measured(each.kind, *places)) : std::string("not shown");
   const std::string label = number + ": " + name_of(each.kind);
+  ImGui::AlignTextToFramePadding();
   if (choice(label.c_str(), ui.measures.chosen == each.number,
-             static_cast<double>(104.0F * unit()))) {
+             static_cast<double>(94.0F * unit()))) {
     ui.measures.chosen = each.number;
   }
-  ImGui::SameLine(116.0F * unit());
-  ImGui::AlignTextToFramePadding();
+  ImGui::SameLine(106.0F * unit());
   if (places) {
     ImGui::TextUnformatted(value.c_str());
   } else {
     ImGui::TextDisabled("%s", value.c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("its piece is hidden or gone");
   }
-  ImGui::SameLine(204.0F * unit());
+  ImGui::SameLine(190.0F * unit());
   ImGui::BeginDisabled(!places);
   if (button(("Copy##" + number).c_str())) ImGui::SetClipboardText(value.c_str());
   ImGui::EndDisabled();
   ImGui::SameLine();
-  return button(("Delete##" + number).c_str());
+  const bool is_removed = button(("x##" + number).c_str());
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("remove it (Delete)");
+  return is_removed;
 }
 
-void draw_rows(UiState& ui) {
+void draw_measure_rows(UiState& ui) {
   const float row = ImGui::GetFrameHeightWithSpacing();
   ImGui::BeginChild("measurements", {0.0F, kMeasureRows * row + 12.0F * unit()}, true);
   if (ui.measures.list.empty()) ImGui::TextDisabled("nothing yet");
   std::optional<std::int64_t> removed;
   for (const Measurement& each : ui.measures.list) {
-    if (draw_row(each, ui)) removed = each.number;
+    if (draw_measure_row(each, ui)) removed = each.number;
     // The newest comes into sight.
     if (each.number > ui.measures.listed) {
       ui.measures.listed = each.number;
@@ -128,8 +130,8 @@ void draw_measure_marks(const UiState& ui) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const WindowPart& part : parts_of(ui.camera, ui.show.is_stereo)) {
     const MeasureMarks marks = measure_marks(ui, part);
-    for (const MeasureDot& dot : marks.dots) draw_dot(dot, list);
-    for (const MeasureLabel& label : marks.labels) draw_label(label, part, list);
+    for (const MeasureDot& dot : marks.dots) draw_measure_dot(dot, list);
+    for (const MeasureLabel& label : marks.labels) draw_measure_label(label, part, list);
   }
 }
 
@@ -143,8 +145,8 @@ void draw_measures(UiState& ui) {
   ImGui::SetNextWindowSize({kMeasureWidth * unit(), 0.0F});
   keep_on_screen(kMeasureWidth);
   ImGui::Begin("Measure", &ui.panels.has_measures, ImGuiWindowFlags_NoSavedSettings);
-  draw_kinds(ui);
-  draw_rows(ui);
+  draw_measure_kinds(ui);
+  draw_measure_rows(ui);
   ImGui::BeginDisabled(ui.measures.list.empty() && ui.measures.begun.empty());
   if (button("Clear all##measure")) clear_measurements(ui.measures);
   ImGui::EndDisabled();

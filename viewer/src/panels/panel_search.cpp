@@ -20,7 +20,7 @@ constexpr std::size_t kSearchRows = 12;
 
 /// What was typed, with a caret: keys and letters come by way of the gestures (search_takes), so
 /// that none is lost before a field has the keyboard.
-void draw_typed(const SearchChoice& choice) {
+void draw_search_text(const SearchChoice& choice) {
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float wide = ImGui::GetContentRegionAvail().x;
   const float high = ImGui::GetFrameHeight();
@@ -42,7 +42,7 @@ void draw_typed(const SearchChoice& choice) {
 }
 
 /// True when it is clicked.
-bool draw_found(const SearchEntry& entry, bool is_marked, bool is_possible_now) {
+bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_now) {
   const ImGuiCol color = is_possible_now ? ImGuiCol_Text : ImGuiCol_TextDisabled;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
   const std::string label = entry.title + "##found" + entry.place;
@@ -70,20 +70,22 @@ void draw_search(UiState& ui, DocumentThread& document) {
   ImGui::Begin(
       "##search", nullptr,
       ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  draw_typed(search);
+  draw_search_text(search);
   // As many as fit, those around the mark.
   const std::size_t first = search.at < kSearchRows ? 0 : search.at - kSearchRows + 1;
   const std::size_t last = std::min(found.size(), first + kSearchRows);
   if (found.empty()) ImGui::TextDisabled("nothing is called so");
   std::optional<SearchEntry> chosen;
   for (std::size_t n = first; n < last; ++n) {
-    if (draw_found(found[n], n == search.at, is_possible(found[n], ui))) chosen = found[n];
+    if (draw_search_row(found[n], n == search.at, is_possible(found[n], ui))) chosen = found[n];
   }
   if (found.size() > last) {
     ImGui::TextDisabled("and %d more", static_cast<int>(found.size() - last));
   }
   // Whoever clicks elsewhere goes on there.
-  if (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered()) search.is_open = false;
+  if (ImGui::IsMouseClicked(0) &&
+      !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+    search.is_open = false;
   ImGui::End();
   if (chosen) do_found(*chosen, ui, document);
 }
