@@ -14,7 +14,7 @@ namespace {
 // What a letter counts for, wherever it stands; and more where it follows the one before, or begins
 // a word.
 constexpr int kLetterScore = 2;
-constexpr int kFollowsScore = 6;
+constexpr int kFollowsScore = 10;
 constexpr int kWordScore = 8;
 constexpr int kMiss = -1'000'000;
 
