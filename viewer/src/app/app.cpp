@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "commands/command.h"
 #include "commands/measure.h"
+#include "commands/measure_marks.h"
 #include "commands/piece_gestures.h"
 #include "document/document.h"
 #include "document/printer_list.h"
@@ -624,7 +625,7 @@ void App::draw_panels() {
   draw_history(ui_, document_);
   draw_print(ui_, document_);
   draw_pieces(ui_, document_);
-  draw_measures(ui_);
+  draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);
   draw_switch_hint(ui_);

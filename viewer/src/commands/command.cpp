@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "commands/measure.h"
 #include "commands/piece_edits.h"
 #include "picture/stereo.h"
 
@@ -183,16 +184,22 @@ bool perform_on_view(Command command, UiState& ui) {
   }
 }
 
+/// With its list, unless panels are hidden: whoever has hidden them wants to see the clay.
+void measure_by(MeasureKind kind, UiState& ui) {
+  choose_measure(kind, ui.measures);
+  if (ui.measures.tool && ui.panels.has_tools) ui.panels.has_measures = true;
+}
+
 bool perform_on_measures(Command command, UiState& ui) {
   switch (command) {
     case Command::measure_distance:
-      choose_measure(MeasureKind::distance, ui);
+      measure_by(MeasureKind::distance, ui);
       return true;
     case Command::measure_angle:
-      choose_measure(MeasureKind::angle, ui);
+      measure_by(MeasureKind::angle, ui);
       return true;
     case Command::measure_thickness:
-      choose_measure(MeasureKind::thickness, ui);
+      measure_by(MeasureKind::thickness, ui);
       return true;
     case Command::measure_clear:
       clear_measurements(ui.measures);
@@ -347,7 +354,7 @@ const ToolInfo* tool_named_by(const KeyChord& chord) noexcept {
 }
 
 void choose_tool(const ToolInfo& tool, UiState& ui) {
-  leave_measuring(ui);
+  leave_measuring(ui.measures);
   choose(ui.brush, tool);
 }
 

@@ -1,38 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "commands/search_choice.h"
+#include "commands/ui_state.h"
 #include "document/document_thread.h"
-#include "document/tool_info.h"
 #include "input/input_event.h"
 
 namespace argil::viewer {
-
-enum class Command;
-struct UiState;
-
-/// What the search finds: a command, or a tool to be chosen.
-using SearchAim = std::variant<Command, const ToolInfo*>;
 
 struct SearchEntry {
   SearchAim aim;
   std::string title;
   std::string place;  ///< the menu that lists it, or "Tool"
   std::string chord;  ///< "" none
-};
-
-/// What the window remembers of the search.
-struct SearchChoice {
-  static constexpr std::size_t kMostRecent = 8;
-  bool is_open = false;
-  std::string text;               ///< ASCII, as it is typed
-  std::size_t at = 0;             ///< of what is found
-  std::vector<SearchAim> recent;  ///< what was done through it, newest first
 };
 
 /// How well a text is meant by what was typed: its letters must stand there in their order, in any

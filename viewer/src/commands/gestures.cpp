@@ -9,6 +9,8 @@
 #include "argil/io/path_file.h"
 
 #include "commands/command.h"
+#include "commands/command_search.h"
+#include "commands/measure.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -119,7 +121,7 @@ void Gestures::escape() {
   if (ends || std::exchange(ui_.asks_to_drop, false)) return;
   const bool was_asked = ui_.clay.left.has_value();
   if (was_asked) document_.send(ForgetQuestion{});
-  if (!close_dialogs(ui_) && !was_asked) leave_measuring(ui_);
+  if (!close_dialogs(ui_) && !was_asked) leave_measuring(ui_.measures);
 }
 
 // ---- the mouse ---------------------------------------------------------------------------------

@@ -7,27 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "commands/piece_gestures.h"
-#include "commands/ui_state.h"
-
 namespace argil::viewer {
-namespace {
-
-/// Where a piece is shown; nothing while it is hidden or gone.
-std::optional<Placement> placement_shown(PieceKey key, const UiState& ui) {
-  if (!ui.clay.pieces) return std::nullopt;
-  const PieceList& list = *ui.clay.pieces;
-  if (list.active_piece().key == key && list.active_piece().look.is_visible) {
-    return shown_placement(ui);  // also while it is dragged
-  }
-  for (const PieceState& piece : list.pieces) {
-    if (piece.key == key && piece.look.is_visible) return piece.look.placement;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 const char* name_of(MeasureKind kind) noexcept {
   switch (kind) {
     case MeasureKind::distance:
@@ -44,17 +24,6 @@ std::string word_of(MeasureKind kind) {
   std::string word = name_of(kind);
   word.front() = static_cast<char>(word.front() - 'A' + 'a');
   return word;
-}
-
-std::optional<std::vector<Vec3>> places_of(std::span<const MeasurePoint> points,
-                                           const UiState& ui) {
-  std::vector<Vec3> places;
-  for (const MeasurePoint& point : points) {
-    const auto at = placement_shown(point.piece, ui);
-    if (!at) return std::nullopt;
-    places.push_back(placed(*at, point.own_mm));
-  }
-  return places;
 }
 
 double measured(MeasureKind kind, std::span<const Vec3> places) {
@@ -84,22 +53,20 @@ Measurement* find_measurement(MeasureChoice& choice, std::int64_t number) {
   return found == choice.list.end() ? nullptr : &*found;
 }
 
-void choose_measure(MeasureKind kind, UiState& ui) {
-  if (ui.measures.tool == kind) return leave_measuring(ui);
-  ui.measures.begun.clear();
-  ui.measures.hover.clear();
-  ui.measures.tool = kind;
-  ui.measures.has_marks = true;
-  // Whoever has hidden the panels wants to see the clay.
-  if (ui.panels.has_tools) ui.panels.has_measures = true;
+void choose_measure(MeasureKind kind, MeasureChoice& choice) {
+  const bool was_chosen = choice.tool == kind;
+  leave_measuring(choice);
+  if (was_chosen) return;
+  choice.tool = kind;
+  choice.has_marks = true;
 }
 
-void leave_measuring(UiState& ui) {
-  ui.measures.tool.reset();
-  ui.measures.begun.clear();
-  ui.measures.hover.clear();
-  ui.measures.under.reset();
-  ui.measures.chosen.reset();
+void leave_measuring(MeasureChoice& choice) {
+  choice.tool.reset();
+  choice.begun.clear();
+  choice.hover.clear();
+  choice.under.reset();
+  choice.chosen.reset();
 }
 
 void remove_measurement(std::int64_t number, MeasureChoice& choice) {

@@ -16,8 +16,6 @@
 
 namespace argil::viewer {
 
-struct UiState;
-
 enum class MeasureKind { distance, angle, thickness };
 
 /// How many points of the clay have to be pointed at.
@@ -59,10 +57,6 @@ struct MeasureChoice {
   std::int64_t listed = 0;             ///< the newest to which the list was scrolled
 };
 
-/// Where the points of a measurement lie in the sculpture; nothing while a piece of theirs is
-/// hidden, or gone.
-std::optional<std::vector<Vec3>> places_of(std::span<const MeasurePoint> points, const UiState& ui);
-
 /// In mm; of an angle in degrees, 0 to 180 (0 where two of its points are one).
 double measured(MeasureKind kind, std::span<const Vec3> places);
 /// "12.34 mm", "45.0°"; lengths below a millimetre with three digits.
@@ -71,9 +65,9 @@ std::string measured_text(MeasureKind kind, double value);
 /// The one with this number; null where it is gone.
 Measurement* find_measurement(MeasureChoice& choice, std::int64_t number);
 
-/// Chooses a tool, or leaves it where it is the one that is chosen.
-void choose_measure(MeasureKind kind, UiState& ui);
-void leave_measuring(UiState& ui);
+/// Chooses a tool, or leaves it where it is the one that is chosen; what was begun is given up.
+void choose_measure(MeasureKind kind, MeasureChoice& choice);
+void leave_measuring(MeasureChoice& choice);
 void remove_measurement(std::int64_t number, MeasureChoice& choice);
 void clear_measurements(MeasureChoice& choice);
 

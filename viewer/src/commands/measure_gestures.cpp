@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands/measure.h"
+#include "commands/measure_marks.h"
 
 namespace argil::viewer {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "commands/measure.h"
+#include "commands/piece_gestures.h"
 
 namespace argil::viewer {
 namespace {
@@ -20,6 +21,19 @@ const Vec3 kChosenColor{1.0, 0.72, 0.10};
 constexpr double kBesidePixels = 18.0;
 /// Of the shorter leg of an angle: where its arc is.
 constexpr double kArcPart = 0.35;
+
+/// Where a piece is shown; nothing while it is hidden or gone.
+std::optional<Placement> placement_shown(PieceKey key, const UiState& ui) {
+  if (!ui.clay.pieces) return std::nullopt;
+  const PieceList& list = *ui.clay.pieces;
+  if (list.active_piece().key == key && list.active_piece().look.is_visible) {
+    return shown_placement(ui);  // also while it is dragged
+  }
+  for (const PieceState& piece : list.pieces) {
+    if (piece.key == key && piece.look.is_visible) return piece.look.placement;
+  }
+  return std::nullopt;
+}
 
 /// A measurement as it is drawn, also one that is not complete.
 struct ShownMeasure {
@@ -133,6 +147,17 @@ Camera::Pixel label_place(const ShownMeasure& measure, const WindowPart& part, d
 }
 
 }  // namespace
+
+std::optional<std::vector<Vec3>> places_of(std::span<const MeasurePoint> points,
+                                           const UiState& ui) {
+  std::vector<Vec3> places;
+  for (const MeasurePoint& point : points) {
+    const auto at = placement_shown(point.piece, ui);
+    if (!at) return std::nullopt;
+    places.push_back(placed(*at, point.own_mm));
+  }
+  return places;
+}
 
 MeasureMarks measure_marks(const UiState& ui, const WindowPart& part) {
   MeasureMarks marks;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,10 @@
 #include "picture/stereo.h"
 
 namespace argil::viewer {
+
+/// Where the points of a measurement lie in the sculpture; nothing while a piece of theirs is
+/// hidden, or gone.
+std::optional<std::vector<Vec3>> places_of(std::span<const MeasurePoint> points, const UiState& ui);
 
 /// A number on the picture, beside its line.
 struct MeasureLabel {

@@ -17,10 +17,10 @@
 #include "argil/haptics/simulation/hand_model.h"
 
 #include "commands/brush.h"
-#include "commands/command_search.h"
 #include "commands/import_choice.h"
 #include "commands/measure.h"
 #include "commands/outline.h"
+#include "commands/search_choice.h"
 #include "document/document_thread.h"
 #include "document/settings.h"
 #include "picture/camera.h"

@@ -2,9 +2,11 @@
 // What was measured: numbers over the picture, behind the panels, and the list of all.
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <imgui.h>
 
+#include "commands/command.h"
 #include "commands/measure.h"
 #include "commands/measure_marks.h"
 #include "panels/gui.h"
@@ -60,16 +62,17 @@ void draw_measure_label(const MeasureLabel& label, const WindowPart& part, ImDra
                faded(end_color(label.is_chosen), alpha), label.text.c_str());
 }
 
-/// The three tools; true of the one that is chosen.
-void draw_measure_kinds(UiState& ui) {
-  const float width = 82.0F * unit();
-  for (const MeasureKind kind :
-       {MeasureKind::distance, MeasureKind::angle, MeasureKind::thickness}) {
+/// The tools, and what the left button does with the one that is chosen.
+void draw_measure_kinds(UiState& ui, DocumentThread& document) {
+  constexpr std::pair<MeasureKind, Command> kTools[] = {
+      {MeasureKind::distance, Command::measure_distance},
+      {MeasureKind::angle, Command::measure_angle},
+      {MeasureKind::thickness, Command::measure_thickness}};
+  const double width = static_cast<double>(82.0F * unit());
+  for (const auto& [kind, command] : kTools) {
     if (kind != MeasureKind::distance) ImGui::SameLine();
     const std::string label = std::string(name_of(kind)) + "##measure";
-    if (choice(label.c_str(), ui.measures.tool == kind, static_cast<double>(width))) {
-      choose_measure(kind, ui);
-    }
+    if (choice(label.c_str(), ui.measures.tool == kind, width)) perform(command, ui, document);
   }
   if (ui.measures.tool) {
     ImGui::TextDisabled("%s", next_pick(ui.measures));
@@ -135,7 +138,7 @@ void draw_measure_marks(const UiState& ui) {
   }
 }
 
-void draw_measures(UiState& ui) {
+void draw_measures(UiState& ui, DocumentThread& document) {
   if (!ui.panels.has_measures) return;
   // Over the status line, where no other panel opens.
   const float bottom = ImGui::GetIO().DisplaySize.y - ImGui::GetFrameHeight() - 8.0F * unit();
@@ -145,10 +148,10 @@ void draw_measures(UiState& ui) {
   ImGui::SetNextWindowSize({kMeasureWidth * unit(), 0.0F});
   keep_on_screen(kMeasureWidth);
   ImGui::Begin("Measure", &ui.panels.has_measures, ImGuiWindowFlags_NoSavedSettings);
-  draw_measure_kinds(ui);
+  draw_measure_kinds(ui, document);
   draw_measure_rows(ui);
-  ImGui::BeginDisabled(ui.measures.list.empty() && ui.measures.begun.empty());
-  if (button("Clear all##measure")) clear_measurements(ui.measures);
+  ImGui::BeginDisabled(!is_possible(Command::measure_clear, ui));
+  if (button("Clear all##measure")) perform(Command::measure_clear, ui, document);
   ImGui::EndDisabled();
   ImGui::SameLine();
   check("In the picture", ui.measures.has_marks);

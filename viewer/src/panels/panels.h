@@ -37,7 +37,7 @@ void draw_pieces(UiState& ui, DocumentThread& document);
 void draw_switch_hint(const UiState& ui);
 /// Numbers and ends of what was measured, over the picture.
 void draw_measure_marks(const UiState& ui);
-void draw_measures(UiState& ui);
+void draw_measures(UiState& ui, DocumentThread& document);
 void draw_search(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
 void draw_thickness(const UiState& ui);
