@@ -193,8 +193,8 @@ struct UiState {
   PanelState panels;
 
   Camera::Pixel pointer;
-  bool is_pointer_over_clay_view = false;
   double panel_scale = 1.0;  ///< of the last frame (scale_of_panels): marks are as large as letters
+  bool is_pointer_over_clay_view = false;
   std::optional<Chord> chord;  ///< through the slice's material, under the pointer
   bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
