@@ -173,6 +173,100 @@ TEST_F(MeasureTest, AClickOnAnEndBeginsExactlyThere) {
   EXPECT_EQ(angle[2], distance[1]);
 }
 
+/// The far end of a thickness is drawn over the front of the ball, faintly.
+TEST_F(MeasureTest, AnEndBehindTheClayIsNotTaken) {
+  perform(Command::measure_thickness, ui_, document_);
+  click(left_);
+  const auto places = places_of(ui_.measures.list.at(0).points, ui_);
+  ASSERT_TRUE(places);
+  const Camera::Pixel far = ui_.camera.pixel_of((*places)[1]);
+  perform(Command::measure_distance, ui_, document_);
+  settle();
+  click(far);
+  click(top_);
+  ASSERT_EQ(ui_.measures.list.size(), 2U);
+  EXPECT_NEAR(value(1), length(on_ball(far) - on_ball(top_)), 0.03 * voxel_);
+}
+
+TEST_F(MeasureTest, InParallelFromBehindAndNearItIsHiddenToo) {
+  ui_.camera.set_parallel(true);
+  perform(Command::measure_distance, ui_, document_);
+  click({80.0, 90.0});
+  click({120.0, 110.0});
+  for (int n = 0; n < 8; ++n) ui_.camera.zoom(1.15, {100.0, 100.0});
+  settle();
+  const auto marks = [&] { return measure_marks(ui_, parts_of(ui_.camera, false)[0]); };
+  ASSERT_EQ(marks().labels.size(), 1U);
+  EXPECT_TRUE(marks().labels[0].is_seen);
+  ui_.camera.look_from({0.0, 1.0, 0.0}, {0.0, 0.0, 1.0});
+  settle();
+  ASSERT_EQ(marks().labels.size(), 1U);
+  EXPECT_FALSE(marks().labels[0].is_seen) << "all of the ball lies before it";
+}
+
+TEST_F(MeasureTest, ASlipOfTheHandMakesNoFurtherPoint) {
+  perform(Command::measure_distance, ui_, document_);
+  click(left_);
+  mouse_at(InputEvent::Kind::move, right_);
+  mouse_at(InputEvent::Kind::press, right_);
+  mouse_at(InputEvent::Kind::move, {right_.x + 15.0, right_.y + 5.0});
+  mouse_at(InputEvent::Kind::release, {right_.x + 15.0, right_.y + 5.0});
+  settle();
+  EXPECT_EQ(ui_.measures.list.size(), 1U);
+  EXPECT_TRUE(ui_.measures.begun.empty());
+  // Nor does a double click.
+  click(top_);
+  click({top_.x + 1.0, top_.y});
+  EXPECT_EQ(ui_.measures.list.size(), 1U);
+  EXPECT_EQ(ui_.measures.begun.size(), 1U);
+  const MeasureMarks marks = measure_marks(ui_, parts_of(ui_.camera, false)[0]);
+  EXPECT_EQ(marks.labels.size(), 1U) << "and no number of a line that is none";
+}
+
+TEST_F(MeasureTest, ANumberStaysInThePictureWithWhatIsSeenOfItsLine) {
+  perform(Command::measure_distance, ui_, document_);
+  click({50.0, 100.0});
+  click({150.0, 100.0});
+  ui_.camera.pan(-90.0, 0.0);
+  settle();
+  const MeasureMarks marks = measure_marks(ui_, parts_of(ui_.camera, false)[0]);
+  ASSERT_EQ(marks.labels.size(), 1U);
+  EXPECT_LT(marks.dots[0].at.x, 0.0) << "one end is outside";
+  EXPECT_NEAR(marks.labels[0].at.x, 0.5 * marks.dots[1].at.x, 2.0) << "the middle of what is left";
+  ui_.camera.pan(-90.0, 0.0);
+  EXPECT_TRUE(measure_marks(ui_, parts_of(ui_.camera, false)[0]).labels.empty());
+}
+
+TEST_F(MeasureTest, NumbersDoNotLieOverEachOther) {
+  perform(Command::measure_distance, ui_, document_);
+  for (const double by : {0.0, 12.0, 24.0}) {
+    click({60.0, 90.0 + by});
+    click({140.0, 90.0 + by});
+  }
+  const MeasureMarks marks = measure_marks(ui_, parts_of(ui_.camera, false)[0]);
+  ASSERT_EQ(marks.labels.size(), 3U);
+  for (std::size_t n = 1; n < 3; ++n) {
+    EXPECT_GT(std::abs(marks.labels[n].at.y - marks.labels[n - 1].at.y), 20.0);
+  }
+}
+
+TEST_F(MeasureTest, WhatIsChosenInTheListIsDeletedWithoutTheTool) {
+  perform(Command::measure_thickness, ui_, document_);
+  click(left_);
+  document_.send(AddBallPiece{});
+  settle();
+  key(kKeyEscape);
+  ASSERT_FALSE(ui_.measures.tool);
+  ui_.measures.chosen = 1;  // as a click in the list does
+  key(kKeyDelete);
+  settle();
+  EXPECT_TRUE(ui_.measures.list.empty());
+  EXPECT_EQ(ui_.clay.pieces->pieces.size(), 2U);
+  key(kKeyDelete);
+  settle();
+  EXPECT_EQ(ui_.clay.pieces->pieces.size(), 1U) << "now it is the piece";
+}
+
 TEST_F(MeasureTest, DeleteRemovesWhatIsChosenAndNoPiece) {
   perform(Command::measure_thickness, ui_, document_);
   click(left_);

@@ -229,6 +229,7 @@ Result<void> App::frame() {
   ask_for_hover();
   cut_slice();
   ui_.measures.seen = seen_half();
+  ui_.measures.slice = ui_.measures.seen ? &*slice_ : nullptr;
   tick_haptics(now);
 
   if (const auto shown = felt(); shown && !haptics_->is_running()) {

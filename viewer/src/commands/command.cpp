@@ -72,7 +72,7 @@ constexpr CommandInfo kCommands[] = {
     {Command::measure_angle, "Measure", "Angle", "Ctrl+U"},
     {Command::measure_thickness, "Measure", "Thickness", "Alt+U"},
     {Command::measure_list, "Measure", "List of measurements", "Ctrl+Alt+U"},
-    {Command::measure_clear, "Measure", "Clear all", "Ctrl+Shift+U"},
+    {Command::measure_clear, "Measure", "Clear all", ""},
     {Command::search, "Help", "Search commands", "Ctrl+K"},
     {Command::help, "Help", "Keys", "F1"},
     {Command::messages, "Help", "Messages", "Ctrl+M"},
@@ -187,6 +187,7 @@ bool perform_on_view(Command command, UiState& ui) {
 /// With its list, unless panels are hidden: whoever has hidden them wants to see the clay.
 void measure_by(MeasureKind kind, UiState& ui) {
   choose_measure(kind, ui.measures);
+  ui.places_drain = ui.draws_path = false;
   if (ui.measures.tool && ui.panels.has_tools) ui.panels.has_measures = true;
 }
 

@@ -56,6 +56,11 @@ std::size_t search_age(const SearchEntry& entry, const SearchChoice& choice) {
   return static_cast<std::size_t>(at - choice.recent.begin());
 }
 
+bool is_measuring_tool(Command command) {
+  return command == Command::measure_distance || command == Command::measure_angle ||
+         command == Command::measure_thickness;
+}
+
 void move_mark(int by, SearchChoice& choice) {
   const auto count = static_cast<std::ptrdiff_t>(found_entries(choice).size());
   if (count == 0) return;
@@ -138,6 +143,8 @@ void do_found(const SearchEntry& entry, UiState& ui, DocumentThread& document) {
   choice.recent.insert(choice.recent.begin(), entry.aim);
   if (choice.recent.size() > SearchChoice::kMostRecent) choice.recent.pop_back();
   if (const auto* command = std::get_if<Command>(&entry.aim)) {
+    // Whoever names a tool wants it, also where it is the one that is chosen.
+    if (is_measuring_tool(*command)) ui.measures.tool.reset();
     perform(*command, ui, document);
   } else {
     choose_tool(*std::get<const ToolInfo*>(entry.aim), ui);

@@ -86,8 +86,10 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
   // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
   if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
   if (drag_ == Drag::measure) return;
-  // Whoever measures means a measurement, and not the piece that Delete removes else.
-  if (ui_.measures.tool && event.key == kKeyDelete && event.modifiers == Modifiers{}) {
+  // Whoever measures, or has chosen one in the list, means a measurement, and not the piece that
+  // Delete removes else.
+  const bool is_measuring = ui_.measures.tool || ui_.measures.chosen;
+  if (is_measuring && event.key == kKeyDelete && event.modifiers == Modifiers{}) {
     return measures_.remove();
   }
   if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
@@ -157,6 +159,7 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   if (event.button == MouseButton::right || held.alt) return Drag::orbit;
   if (pieces_.press(event)) return Drag::piece;
   if (ui_.measures.tool) return measure(event);
+  ui_.measures.chosen.reset();  // back to the clay
   if (ui_.is_hand_led) return Drag::hand;
   if (begin_outline(event)) return Drag::outline;
   switch (begin_stroke(event)) {

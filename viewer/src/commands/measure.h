@@ -12,7 +12,7 @@
 #include "argil/core/vec3.h"
 
 #include "document/measure_pick.h"
-#include "picture/slice_chord.h"
+#include "picture/renderer.h"
 
 namespace argil::viewer {
 
@@ -49,12 +49,13 @@ struct MeasureChoice {
   bool has_marks = true;            ///< they are drawn
   std::vector<Measurement> list;    ///< oldest first
   std::int64_t last_number = 0;
-  std::vector<MeasurePoint> begun;     ///< points of the next one
-  std::vector<MeasurePoint> hover;     ///< under the pointer; of a thickness also the one across
-  std::optional<std::int64_t> chosen;  ///< the one that Delete removes
-  std::optional<MeasureEnd> under;     ///< the pointer, or held
-  std::optional<SeenHalf> seen;        ///< what the slice of the last frame left
-  std::int64_t listed = 0;             ///< the newest to which the list was scrolled
+  std::vector<MeasurePoint> begun;      ///< points of the next one
+  std::vector<MeasurePoint> hover;      ///< under the pointer; of a thickness also the one across
+  std::optional<std::int64_t> chosen;   ///< the one that Delete removes
+  std::optional<MeasureEnd> under;      ///< the pointer, or held
+  std::optional<SeenHalf> seen;         ///< what the slice of the last frame left
+  const SlicePicture* slice = nullptr;  ///< that slice, where one is shown; the window keeps it
+  std::int64_t listed = 0;              ///< the newest to which the list was scrolled
 };
 
 /// In mm; of an angle in degrees, 0 to 180 (0 where two of its points are one).

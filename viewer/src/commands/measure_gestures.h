@@ -9,6 +9,7 @@
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
 #include "input/input_event.h"
+#include "picture/slice_chord.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -52,7 +53,8 @@ class MeasureGestures {
     MeasureEnd end;
     std::vector<MeasurePoint> before;  ///< all points of its measurement
     bool is_thickness = false;
-    bool is_let_go = false;  ///< the answer to the last question is under way
+    bool is_let_go = false;           ///< the answer to the last question is under way
+    std::optional<Chord> chord = {};  ///< as of Waiting
   };
   /// What the answers depend on.
   struct Looked {
@@ -62,12 +64,15 @@ class MeasureGestures {
     std::shared_ptr<const PieceList> pieces;
     std::optional<SeenHalf> seen;
     std::optional<MeasureKind> tool;
+    bool has_marks = true;
     std::int64_t last_number = 0;  ///< MeasureChoice::last_number
     bool operator==(const Looked&) const = default;
   };
 
-  void ask(std::int64_t question, const Camera::Pixel& pixel);
+  std::optional<Chord> ask(std::int64_t question, const Camera::Pixel& pixel);
   void put(const Camera::Pixel& pixel);
+  bool is_click(const Camera::Pixel& pixel) const;
+  bool is_last(const MeasurePoint& point) const;
   void click_on(const Held& end, const Camera::Pixel& pixel);
   void take(const MeasureAnswer& answer);
   void take_point(const MeasureAnswer& answer, const std::optional<Chord>& chord);
@@ -86,7 +91,9 @@ class MeasureGestures {
   std::int64_t last_question_ = 0;
   std::vector<Waiting> waiting_;
   std::optional<Held> held_;
-  std::optional<Camera::Pixel> pressed_at_;
+  std::optional<Camera::Pixel> pressed_at_;  ///< until the pointer was dragged from there
+  bool may_drag_ = false;                    ///< from there to the next point
+  std::optional<Chord> hover_chord_;
   std::optional<Looked> looked_;
   Camera::Pixel hovered_;         ///< where it was asked last
   std::int64_t asked_moves_ = 0;  ///< answers that moved an end, when sight was asked last

@@ -2,6 +2,7 @@
 #include "commands/measure_marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -56,18 +57,30 @@ std::optional<ShownMeasure> shown_measure(const Measurement& each, const UiState
   return made;
 }
 
+/// Whether two points are nearly one on the screen: no line between them is worth a number.
+bool are_near(const Vec3& a, const Vec3& b, const UiState& ui) {
+  constexpr double kNearPixels = 6.0;
+  const Camera::Pixel one = ui.camera.pixel_of(a);
+  const Camera::Pixel other = ui.camera.pixel_of(b);
+  return std::hypot(one.x - other.x, one.y - other.y) < kNearPixels * ui.panel_scale;
+}
+
 /// The one that is begun, up to what lies under the pointer.
 std::optional<ShownMeasure> shown_next_measure(const UiState& ui) {
   const MeasureChoice& choice = ui.measures;
   if (!choice.tool || (choice.under && choice.begun.empty())) return std::nullopt;
-  std::vector<MeasurePoint> points = choice.begun;
-  points.insert(points.end(), choice.hover.begin(), choice.hover.end());
-  auto places = places_of(points, ui);
-  if (!places || places->empty()) return std::nullopt;
+  auto places = places_of(choice.begun, ui);
+  const auto hover = places_of(choice.hover, ui);
+  if (!places || !hover) return std::nullopt;
+  if (places->empty() || hover->empty() || !are_near(places->back(), hover->front(), ui)) {
+    places->insert(places->end(), hover->begin(), hover->end());
+  }
+  if (places->empty()) return std::nullopt;
   const std::size_t whole = *choice.tool == MeasureKind::angle ? 3 : 2;
   ShownMeasure made{*choice.tool, std::move(*places), {}, false, true, {}};
   made.is_complete = made.places.size() == whole;
   made.are_seen.assign(made.places.size(), true);
+  if (made.kind == MeasureKind::thickness && made.is_complete) made.are_seen[1] = false;
   return made;
 }
 
@@ -124,26 +137,66 @@ Camera::Pixel label_before(const Camera::Pixel& at, const Camera::Pixel& from, d
   return {at.x + room * dx, at.y + room * dy};
 }
 
-Camera::Pixel label_place(const ShownMeasure& measure, const WindowPart& part, double pixels) {
+/// What of a line lies in a part of the window; nothing where all of it is beside (Liang and
+/// Barsky).
+std::optional<std::pair<Camera::Pixel, Camera::Pixel>> clipped(const Camera::Pixel& a,
+                                                               const Camera::Pixel& b,
+                                                               const WindowPart& part) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  double from = 0.0;
+  double to = 1.0;
+  const std::array<std::pair<double, double>, 4> edges{{{-dx, a.x - part.left},
+                                                        {dx, part.left + part.camera.width() - a.x},
+                                                        {-dy, a.y},
+                                                        {dy, part.camera.height() - a.y}}};
+  for (const auto& [across, room] : edges) {
+    if (across == 0.0 && room < 0.0) return std::nullopt;
+    if (across < 0.0) from = std::max(from, room / across);
+    if (across > 0.0) to = std::min(to, room / across);
+  }
+  if (from > to) return std::nullopt;
+  return std::pair{Camera::Pixel{a.x + from * dx, a.y + from * dy},
+                   Camera::Pixel{a.x + to * dx, a.y + to * dy}};
+}
+
+/// Beside what of its line is in the picture; nothing where none is.
+std::optional<Camera::Pixel> label_place(const ShownMeasure& measure, const WindowPart& part,
+                                         double pixels) {
   const auto pixel_of = [&](const Vec3& place) {
     Camera::Pixel pixel = part.camera.pixel_of(place);
     pixel.x += part.left;
     return pixel;
   };
-  if (measure.kind == MeasureKind::thickness) {
-    return label_before(pixel_of(measure.places[0]), pixel_of(measure.places[1]), pixels);
+  const bool is_angle = measure.kind == MeasureKind::angle;
+  const std::vector<Vec3> arc = is_angle ? arc_of(measure.places) : std::vector<Vec3>();
+  const Camera::Pixel first = pixel_of(measure.places[is_angle ? 1 : 0]);
+  const Camera::Pixel last =
+      is_angle && !arc.empty() ? pixel_of(arc[arc.size() / 2]) : pixel_of(measure.places[1]);
+  const auto shown = clipped(first, last, part);
+  if (!shown) return std::nullopt;
+  const bool is_first_in = shown->first.x == first.x && shown->first.y == first.y;
+  // Of an angle on the far side of the arc from its corner; of a thickness before its near end.
+  if (is_angle) return label_before(shown->second, shown->first, pixels);
+  if (measure.kind == MeasureKind::thickness && is_first_in) {
+    return label_before(first, last, pixels);
   }
-  if (measure.kind == MeasureKind::distance) {
-    return label_beside(pixel_of(measure.places[0]), pixel_of(measure.places[1]), pixels);
+  return label_beside(shown->first, shown->second, pixels);
+}
+
+/// Down from where it would lie over another one.
+Camera::Pixel free_place(Camera::Pixel at, const std::vector<MeasureLabel>& others, double scale) {
+  constexpr double kLabelHeight = 24.0;
+  constexpr double kLabelWidth = 78.0;
+  constexpr int kMostMoves = 12;
+  const auto is_taken = [&](const MeasureLabel& other) {
+    return std::abs(other.at.x - at.x) < kLabelWidth * scale &&
+           std::abs(other.at.y - at.y) < 0.98 * kLabelHeight * scale;
+  };
+  for (int n = 0; n < kMostMoves && std::any_of(others.begin(), others.end(), is_taken); ++n) {
+    at.y += kLabelHeight * scale;
   }
-  const std::vector<Vec3> arc = arc_of(measure.places);
-  const Camera::Pixel corner = pixel_of(measure.places[1]);
-  if (arc.empty()) return label_beside(corner, corner, pixels);
-  // On the far side of the arc from the corner.
-  const Camera::Pixel middle = pixel_of(arc[arc.size() / 2]);
-  const double far = std::hypot(middle.x - corner.x, middle.y - corner.y);
-  const double by = far > 0.0 ? 1.6 * pixels / far : 0.0;
-  return {middle.x + by * (middle.x - corner.x), middle.y + by * (middle.y - corner.y)};
+  return at;
 }
 
 }  // namespace
@@ -170,7 +223,9 @@ MeasureMarks measure_marks(const UiState& ui, const WindowPart& part) {
     if (!measure.is_complete) continue;
     const bool is_seen =
         std::find(measure.are_seen.begin(), measure.are_seen.end(), true) != measure.are_seen.end();
-    marks.labels.push_back({label_place(measure, part, kBesidePixels * ui.panel_scale),
+    const auto at = label_place(measure, part, kBesidePixels * ui.panel_scale);
+    if (!at) continue;
+    marks.labels.push_back({free_place(*at, marks.labels, ui.panel_scale),
                             measured_text(measure.kind, measured(measure.kind, measure.places)),
                             is_seen, measure.is_chosen});
   }

@@ -98,6 +98,10 @@ void DocumentThread::run() {
       worker.out_of_memory();
     }
 
+    // Whoever asked what there was no memory for is told that nothing was met.
+    for (std::size_t n = measured.size(); n < measures.size(); ++n) {
+      measured.emplace_back().number = measures[n].number;
+    }
     lock.lock();
     if (answer) answer_ = answer;
     measured_.insert(measured_.end(), measured.begin(), measured.end());

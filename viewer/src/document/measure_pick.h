@@ -33,6 +33,7 @@ struct MeasureQuestion {
   Ray ray;  ///< in the sculpture's frame
   std::optional<SeenHalf> seen = {};
   bool wants_far_side = false;
+  double far_enough_mm = 0.0;  ///< given back: of a point that is looked for, less some slack
 };
 
 struct MeasureAnswer {
@@ -40,6 +41,7 @@ struct MeasureAnswer {
   std::optional<MeasurePoint> point;   ///< nothing: the ray meets no clay
   double distance_mm = 0.0;            ///< of the point from the ray's origin
   bool is_on_slice = false;            ///< in the material that a slice shows, not on the surface
+  double far_enough_mm = 0.0;          ///< of the question
   std::optional<MeasurePoint> across;  ///< the far side, where it was asked for and there is one
 };
 

@@ -8,6 +8,7 @@ namespace argil::viewer {
 MeasureAnswer DocumentWorker::measure(const MeasureQuestion& question) {
   MeasureAnswer answer;
   answer.number = question.number;
+  answer.far_enough_mm = question.far_enough_mm;
   if (!document_.has_project()) return answer;
   const Sculpture& sculpture = document_.sculpture();
   const auto picked = measure_pick(sculpture, question.ray, question.seen);

@@ -100,11 +100,15 @@ void draw_files(UiState& ui, DocumentThread& document) {
 
 /// What the buttons of the mouse do now.
 std::string buttons_of(const UiState& ui) {
+  const char* const others = ", middle: move, right: turn";
   if (!ui.clay.has_clay) return "";
-  if (ui.measures.tool) return std::string(next_pick(ui.measures)) + ", middle: move, right: turn";
+  if (ui.places_drain) return std::string("Left: place the drain") + others;
+  if (ui.draws_path) return std::string("Left: draw the path") + others;
+  if (ui.is_hand_led && !ui.measures.tool) return std::string("Left: press the tool in") + others;
+  if (ui.measures.tool) return std::string(next_pick(ui.measures)) + others;
   for (const ToolInfo& info : tool_infos()) {
     if (!is_chosen(ui.brush, info)) continue;
-    return std::string("Left: ") + info.title + ", middle: move, right: turn";
+    return std::string("Left: ") + info.title + others;
   }
   return "";
 }
@@ -118,7 +122,8 @@ void draw_hint(const UiState& ui, float screen_width) {
   };
   if (!ui.is_force_stopped) {
     const char* const help = "F1: all keys";
-    const std::string whole = buttons_of(ui) + "   |   " + help;
+    const std::string buttons = buttons_of(ui);
+    const std::string whole = buttons.empty() ? help : buttons + "   |   " + help;
     // Over other text nothing could be read.
     for (const std::string& text : {whole, std::string(help)}) {
       if (ImGui::GetCursorPosX() > left_of(text)) continue;
@@ -164,12 +169,18 @@ void draw_figures(const UiState& ui, const FrameState& frame) {
               frame.latency_ms->second);
 }
 
-/// At the right end of the menu, where no panel opens over it, while there is a force to stop.
+/// Whether the menu leaves no room for STOP behind it.
+bool is_bar_narrow() { return ImGui::GetWindowWidth() < 530.0F * unit(); }
+
+/// At the right end of the menu, where no panel opens over it, while there is a force to stop; at
+/// its left end in a narrow window.
 void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
   if (ui.haptics.device == DeviceChoice::mouse) return;
   const float width = ImGui::CalcTextSize("STOP").x + 2.0F * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetCursorPosX(
-      std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F * unit()));
+  if (!is_bar_narrow()) {
+    ImGui::SetCursorPosX(
+        std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F * unit()));
+  }
   ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
   if (button("STOP")) chosen = Command::emergency_stop;
   ImGui::PopStyleColor();
@@ -180,6 +191,7 @@ void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
 void draw_menu(UiState& ui, DocumentThread& document) {
   if (!ImGui::BeginMainMenuBar()) return;
   std::optional<Command> chosen;
+  if (is_bar_narrow()) draw_bar_stop(chosen, ui);
   for (const char* menu : kMenus) {
     if (!begin_menu(menu)) continue;
     for (const CommandInfo& info : command_infos()) {
@@ -193,7 +205,7 @@ void draw_menu(UiState& ui, DocumentThread& document) {
     }
     ImGui::EndMenu();
   }
-  draw_bar_stop(chosen, ui);
+  if (!is_bar_narrow()) draw_bar_stop(chosen, ui);
   ImGui::EndMainMenuBar();
   // After the bar is drawn: a command may change what it shows.
   if (chosen) perform(*chosen, ui, document);
@@ -224,7 +236,7 @@ void draw_status(const UiState& ui, const FrameState& frame) {
 
 /// Beside the pointer, as a number on a drawing.
 void draw_thickness(const UiState& ui) {
-  if (!ui.chord) return;
+  if (!ui.chord || ui.measures.tool == MeasureKind::thickness) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.2f mm", length(ui.chord->to_mm - ui.chord->from_mm));
   const ImVec2 at{static_cast<float>(ui.pointer.x) + 16.0F * unit(),

@@ -16,9 +16,10 @@
 namespace argil::viewer {
 namespace {
 
-constexpr float kMeasureWidth = 290.0F;  // units, as all sizes here
+constexpr float kMeasureWidth = 304.0F;  // units, as all sizes here
 constexpr int kMeasureRows = 4;          // without scrolling
 constexpr float kHiddenAlpha = 0.45F;    // of what lies behind clay
+constexpr float kHiddenText = 0.75F;     // which has to be read all the same
 const ImVec4 kEndColor{0.55F, 0.85F, 1.0F, 1.0F};
 const ImVec4 kChosenEndColor{1.0F, 0.86F, 0.35F, 1.0F};
 
@@ -38,7 +39,7 @@ void draw_measure_dot(const MeasureDot& dot, ImDrawList& list) {
   list.AddCircleFilled(at, radius, faded(end_color(dot.is_chosen), alpha), 20);
 }
 
-/// Whole wherever its line goes, as long as the line itself is in the picture.
+/// Whole, also at the edge of the picture.
 void draw_measure_label(const MeasureLabel& label, const WindowPart& part, ImDrawList& list) {
   const ImVec2 size = ImGui::CalcTextSize(label.text.c_str());
   const float margin = 4.0F * unit();
@@ -48,10 +49,9 @@ void draw_measure_label(const MeasureLabel& label, const WindowPart& part, ImDra
   const auto high = static_cast<float>(part.camera.height());
   const float top = ImGui::GetFrameHeight();
   ImVec2 at{static_cast<float>(label.at.x), static_cast<float>(label.at.y)};
-  if (at.x < left || at.x > left + wide || at.y < 0.0F || at.y > high) return;
   at.x = std::clamp(at.x, left + half.x, std::max(left + half.x, left + wide - half.x));
   at.y = std::clamp(at.y, top + half.y, std::max(top + half.y, high - top - half.y));
-  const float alpha = label.is_seen ? 1.0F : kHiddenAlpha;
+  const float alpha = label.is_seen ? 1.0F : kHiddenText;
   const ImVec2 low{at.x - half.x, at.y - half.y};
   const ImVec2 most{at.x + half.x, at.y + half.y};
   list.AddRectFilled(low, most, faded({0.08F, 0.08F, 0.09F, 0.82F}, alpha), margin);
@@ -90,17 +90,17 @@ bool draw_measure_row(const Measurement& each, UiState& ui) {
   const std::string label = number + ": " + name_of(each.kind);
   ImGui::AlignTextToFramePadding();
   if (choice(label.c_str(), ui.measures.chosen == each.number,
-             static_cast<double>(94.0F * unit()))) {
+             static_cast<double>(104.0F * unit()))) {
     ui.measures.chosen = each.number;
   }
-  ImGui::SameLine(106.0F * unit());
+  ImGui::SameLine(118.0F * unit());
   if (places) {
     ImGui::TextUnformatted(value.c_str());
   } else {
     ImGui::TextDisabled("%s", value.c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("its piece is hidden or gone");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("its piece is hidden, or was removed");
   }
-  ImGui::SameLine(190.0F * unit());
+  ImGui::SameLine(204.0F * unit());
   ImGui::BeginDisabled(!places);
   if (button(("Copy##" + number).c_str())) ImGui::SetClipboardText(value.c_str());
   ImGui::EndDisabled();
@@ -133,8 +133,14 @@ void draw_measure_marks(const UiState& ui) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const WindowPart& part : parts_of(ui.camera, ui.show.is_stereo)) {
     const MeasureMarks marks = measure_marks(ui, part);
+    const auto left = static_cast<float>(part.left);
+    list.PushClipRect(
+        {left, 0.0F},
+        {left + static_cast<float>(part.camera.width()), static_cast<float>(part.camera.height())},
+        true);
     for (const MeasureDot& dot : marks.dots) draw_measure_dot(dot, list);
     for (const MeasureLabel& label : marks.labels) draw_measure_label(label, part, list);
+    list.PopClipRect();
   }
 }
 

@@ -46,12 +46,16 @@ bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_
   const ImGuiCol color = is_possible_now ? ImGuiCol_Text : ImGuiCol_TextDisabled;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
   const std::string label = entry.title + "##found" + entry.place;
+  // One row is marked: the one that Enter means.
+  ImGui::PushStyleColor(ImGuiCol_HeaderHovered,
+                        ImGui::GetStyleColorVec4(is_marked ? ImGuiCol_Header : ImGuiCol_FrameBg));
   const bool is_clicked = choice(label.c_str(), is_marked);
-  ImGui::PopStyleColor();
+  ImGui::PopStyleColor(2);
+  const ImVec4 beside = ImGui::GetStyleColorVec4(is_marked ? ImGuiCol_Text : ImGuiCol_TextDisabled);
   ImGui::SameLine(220.0F * unit());
-  ImGui::TextDisabled("%s", entry.place.c_str());
+  ImGui::TextColored(beside, "%s", entry.place.c_str());
   ImGui::SameLine(300.0F * unit());
-  ImGui::TextDisabled("%s", entry.chord.c_str());
+  ImGui::TextColored(beside, "%s", entry.chord.c_str());
   return is_clicked;
 }
 
@@ -74,7 +78,7 @@ void draw_search(UiState& ui, DocumentThread& document) {
   // As many as fit, those around the mark.
   const std::size_t first = search.at < kSearchRows ? 0 : search.at - kSearchRows + 1;
   const std::size_t last = std::min(found.size(), first + kSearchRows);
-  if (found.empty()) ImGui::TextDisabled("nothing is called so");
+  if (found.empty()) ImGui::TextDisabled("no command has that name");
   std::optional<SearchEntry> chosen;
   for (std::size_t n = first; n < last; ++n) {
     if (draw_search_row(found[n], n == search.at, is_possible(found[n], ui))) chosen = found[n];
