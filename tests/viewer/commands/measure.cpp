@@ -191,9 +191,9 @@ TEST_F(MeasureTest, AnEndBehindTheClayIsNotTaken) {
 TEST_F(MeasureTest, InParallelFromBehindAndNearItIsHiddenToo) {
   ui_.camera.set_parallel(true);
   perform(Command::measure_distance, ui_, document_);
-  click({80.0, 90.0});
-  click({120.0, 110.0});
-  for (int n = 0; n < 8; ++n) ui_.camera.zoom(1.15, {100.0, 100.0});
+  click({97.0, 98.0});
+  click({103.0, 102.0});
+  for (int n = 0; n < 14; ++n) ui_.camera.zoom(1.15, {100.0, 100.0});
   settle();
   const auto marks = [&] { return measure_marks(ui_, parts_of(ui_.camera, false)[0]); };
   ASSERT_EQ(marks().labels.size(), 1U);
@@ -202,6 +202,28 @@ TEST_F(MeasureTest, InParallelFromBehindAndNearItIsHiddenToo) {
   settle();
   ASSERT_EQ(marks().labels.size(), 1U);
   EXPECT_FALSE(marks().labels[0].is_seen) << "all of the ball lies before it";
+}
+
+/// Whatever the pointer was over in the frame before.
+TEST_F(MeasureTest, AThicknessInASliceIsThatOfTheVeryPlace) {
+  SlicePicture slice{{-12.0, 0.0, 12.0}, {24.0, 0.0, 0.0}, {0.0, 0.0, -24.0}, 193, 193, {}};
+  for (int row = 0; row < slice.rows; ++row) {
+    for (int column = 0; column < slice.columns; ++column) {
+      const double x = -12.0 + column / 8.0;
+      const double z = 12.0 - row / 8.0;
+      slice.distance_mm.push_back(static_cast<float>(std::hypot(x, z) - kMeasuredBallMm));
+    }
+  }
+  ui_.measures.slice = &slice;
+  ui_.measures.seen = SeenHalf{{0.0, 1.0, 0.0}, 0.0};
+  ui_.chord = Chord{{1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
+  perform(Command::measure_thickness, ui_, document_);
+  click(left_);
+  ASSERT_EQ(ui_.measures.list.size(), 1U);
+  const Ray ray = ui_.camera.ray_at(left_);
+  const Vec3 at = ray.origin_mm - (ray.origin_mm.y / ray.direction.y) * ray.direction;
+  const double across = 2.0 * std::sqrt(kMeasuredBallMm * kMeasuredBallMm - dot(at, at));
+  EXPECT_NEAR(value(0), across, 0.02);  // of 60 directions none may be the shortest
 }
 
 TEST_F(MeasureTest, ASlipOfTheHandMakesNoFurtherPoint) {
