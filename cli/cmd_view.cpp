@@ -24,6 +24,16 @@ struct ViewChoice {
   GuidanceChoice guide;
 };
 
+nlohmann::json json_of(const std::vector<viewer::ViewMeasurement>& measurements) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const viewer::ViewMeasurement& each : measurements) {
+    nlohmann::json points = nlohmann::json::array();
+    for (const Vec3& p : each.points_mm) points.push_back({p.x, p.y, p.z});
+    list.push_back({{"kind", each.kind}, {"value", each.value}, {"points_mm", points}});
+  }
+  return list;
+}
+
 Result<Outcome> run_view(const ViewChoice& choice) {
   viewer::ViewOptions options = choice.window;
   auto falcon = falcon_options(choice.falcon);
@@ -56,6 +66,7 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   outcome.json["uploaded_bytes"] = report.uploaded_bytes;
   outcome.json["gl_objects"] = report.gl_objects;
   outcome.json["gl_errors"] = report.gl_errors;
+  outcome.json["measurements"] = json_of(report.measurements);
   outcome.json["complaints"] = report.complaints;
   // The window ends in its own way and still reports; the status says why it ended.
   if (io::interrupted()) outcome.status = status_of(ErrorKind::interrupted);

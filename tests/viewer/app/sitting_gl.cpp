@@ -3,7 +3,10 @@
 // the page says, in the project, in the 3MF and in Blender.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -87,7 +90,9 @@ class SittingGl : public test::WindowTest {
       fs::create_directories((folder_.path() / shot).parent_path());
     fs::copy_file("examples/pebble.ply", folder_ / "pebble.ply");
     fs::copy_file("examples/alphas/stars.png", folder_ / "stars.png");
-    leave_as_promised(play(with_copies(windows[0]), "", kSittingSize));
+    const test::WindowRun first = play(with_copies(windows[0]), "", kSittingSize);
+    leave_as_promised(first);
+    measured_ = first.report.value("measurements", nlohmann::json::array());
     leave_as_promised(play(with_copies(windows[1]), "flask.vdb", kSittingSize));
   }
 
@@ -106,12 +111,14 @@ class SittingGl : public test::WindowTest {
 
   void expect_volumes_of_each_step() const;
   void expect_mask_held() const;
+  void expect_measured() const;
   void expect_undo_ends_at_the_opening() const;
   void expect_pieces_in_the_3mf() const;
   void expect_pieces_in_blender() const;
   void expect_pictures() const;
 
   test::PageScript page_;
+  nlohmann::json measured_;  ///< in the first window
 };
 
 Vec3 turns_of_piece(const Sculpture& sculpture, std::size_t n) {
@@ -195,6 +202,34 @@ void SittingGl::expect_mask_held() const {
   EXPECT_LT(most_right, 0.005);
 }
 
+/// From rim to rim of the flask's seat, and through the middle of the stopper; the page says both.
+void SittingGl::expect_measured() const {
+  const Sculpture sculpture = copy("07-measure");
+  ASSERT_EQ(measured_.size(), 2U) << measured_.dump();
+  std::ifstream in(kSitting);
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  for (std::size_t n = 0; n < 2; ++n) {
+    const Placement at = sculpture.look(n).placement;
+    std::vector<Vec3> points;
+    for (const auto& p : measured_[n].at("points_mm")) {
+      points.push_back({p[0].get<double>(), p[1].get<double>(), p[2].get<double>()});
+      const double off = sculpture.clay(n).distance_at(unplaced(at, points.back()));
+      EXPECT_LT(std::abs(off), 1e-3) << "a point of " << sculpture.look(n).name;
+    }
+    ASSERT_EQ(points.size(), 2U);
+    const double value = measured_[n].at("value");
+    EXPECT_NEAR(value, length(points[1] - points[0]), 1e-9);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f mm", value);
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+  EXPECT_EQ(measured_[0].at("kind"), "distance");
+  EXPECT_EQ(measured_[1].at("kind"), "thickness");
+  const double ball = volume_mm3(sculpture.clay(1));
+  const double across = 2.0 * std::cbrt(0.75 * ball / std::numbers::pi);
+  EXPECT_NEAR(measured_[1].at("value").get<double>(), across, 0.1 * kCellMm);
+}
+
 void SittingGl::expect_undo_ends_at_the_opening() const {
   const Sculpture saved = copy("08-saved");
   const Sculpture mistake = copy("10-mistake");
@@ -241,6 +276,7 @@ void SittingGl::expect_pictures() const {
   for (const fs::path& shot : page_.shots) {
     EXPECT_TRUE(test::is_as_committed(folder_ / shot, shot));
     if (shot.stem() == "01-import" || shot.stem() == "02-pieces") continue;  // a dialog, the gizmo
+    if (shot.stem() == "07-measure") continue;  // the list, and numbers
     EXPECT_EQ(test::pinholes(test::read_picture(folder_ / shot), 490, 756), 0) << shot;
   }
 }
@@ -248,6 +284,7 @@ void SittingGl::expect_pictures() const {
 TEST_F(SittingGl, EveryStepDoesToThePiecesWhatThePageSays) {
   expect_volumes_of_each_step();
   expect_mask_held();
+  expect_measured();
   expect_undo_ends_at_the_opening();
   expect_pieces_in_the_3mf();
   expect_pieces_in_blender();

@@ -15,6 +15,8 @@
 
 #include "base/text.h"
 #include "commands/command.h"
+#include "commands/measure.h"
+#include "commands/measure_marks.h"
 #include "commands/piece_gestures.h"
 #include "document/document.h"
 #include "document/printer_list.h"
@@ -226,6 +228,8 @@ Result<void> App::frame() {
   follow_camera();
   ask_for_hover();
   cut_slice();
+  ui_.measures.seen = seen_half();
+  ui_.measures.slice = ui_.measures.seen ? &*slice_ : nullptr;
   tick_haptics(now);
 
   if (const auto shown = felt(); shown && !haptics_->is_running()) {
@@ -236,8 +240,9 @@ Result<void> App::frame() {
   note_motion(now);
   ui_.chord = chord();
   const Picture picture = this->picture();
-  gui_.set_scale(scale_of_panels(window_->scale(), ui_.settings.panel_percent, window_->width(),
-                                 window_->height()));
+  ui_.panel_scale = scale_of_panels(window_->scale(), ui_.settings.panel_percent, window_->width(),
+                                    window_->height());
+  gui_.set_scale(ui_.panel_scale);
   gui_.begin_frame(now - last_s_);
   // take_events() went by the panels of the frame before, and another event may not follow.
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
@@ -247,6 +252,7 @@ Result<void> App::frame() {
   // What fades or was laid out anew goes on.
   frames_to_settle_ = std::max(frames_to_settle_ - 1, has_new_panels ? 1 : 0);
   keep_settings();
+  note_measurements();
   const RendererCounts former = renderer_->counts();
   if (auto shown = show(picture, has_new_panels); !shown) return shown;
 
@@ -458,6 +464,18 @@ void App::keep_settings() {
   }
 }
 
+/// For the report, as long as there is a clay: what lies on it is gone with it.
+void App::note_measurements() {
+  if (!ui_.clay.has_clay) return;
+  report_.measurements.clear();
+  for (const Measurement& each : ui_.measures.list) {
+    auto places = places_of(each.points, ui_);
+    if (!places) continue;
+    const double value = measured(each.kind, *places);
+    report_.measurements.push_back({word_of(each.kind), value, std::move(*places)});
+  }
+}
+
 void App::tell(Notice notice) {
   if (notice.kind == Notice::Kind::error) report_.complaints.push_back(notice.text);
   log_.add(std::move(notice), window_->now_s(),
@@ -599,6 +617,7 @@ void App::take_over_path(bool had_clay) {
 void App::draw_panels() {
   // In this order they lie over each other; dialogs come after the panels, messages last.
   draw_outline(ui_);
+  draw_measure_marks(ui_);
   draw_menu(ui_, document_);
   draw_tools(ui_);
   draw_brush(ui_, document_);
@@ -607,6 +626,7 @@ void App::draw_panels() {
   draw_history(ui_, document_);
   draw_print(ui_, document_);
   draw_pieces(ui_, document_);
+  draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);
   draw_switch_hint(ui_);
@@ -619,6 +639,7 @@ void App::draw_panels() {
   draw_save_question(ui_, document_);
   draw_left_question(ui_, document_);
   draw_help(ui_);
+  draw_search(ui_, document_);
   draw_task(ui_, document_);
   log_.tick(window_->now_s());
   if (!ui_.panels.has_messages) draw_toasts(log_);
@@ -703,6 +724,7 @@ Result<void> App::turn_table() {
   bare.arrows.clear();
   bare.handles.clear();
   bare.planes.clear();
+  bare.lines.clear();
   const fs::path file = file_of(number);
   auto saved = renderer_->draw(bare, 0, window_->width(), window_->height());
   if (saved) {

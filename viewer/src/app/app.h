@@ -72,6 +72,7 @@ class App {
   void tick_haptics(double now_s);
   void cut_slice();
   std::optional<Chord> chord() const;
+  std::optional<SeenHalf> seen_half() const;
   void note_motion(double now_s);
   bool is_moving() const;
   SurfaceProbe probe(const Camera::Pixel& pixel);
@@ -84,6 +85,7 @@ class App {
   void note_recent();
   void start_empty();
   void keep_settings();
+  void note_measurements();
   void tell(Notice notice);
 
   ViewOptions options_;

@@ -5,6 +5,7 @@
 
 #include "app/app.h"
 #include "commands/command.h"
+#include "commands/measure_marks.h"
 #include "commands/piece_gestures.h"
 #include "picture/stereo.h"
 
@@ -46,6 +47,7 @@ Picture App::picture() const {
   add_rings(picture);
   add_force(picture);
   add_path(picture);
+  add_measure_lines(ui_, picture);
   const Placement at = shown_placement(ui_);
   for (const Drain& drain : ui_.operation.drains) {
     const Vec3 point = placed(at, drain.point_mm);
@@ -85,7 +87,7 @@ void App::add_pieces(Picture& picture) const {
 }
 
 void App::add_rings(Picture& picture) const {
-  if (drag_form_of(ui_) != DragForm::brush) return;  // no size to show
+  if (ui_.measures.tool || drag_form_of(ui_) != DragForm::brush) return;  // no size to show
   std::optional<SurfaceHit> hit = gestures_.tool_hit();
   double radius = gestures_.tool_radius_mm();
   if (!hit) {
@@ -170,6 +172,16 @@ std::optional<Chord> App::chord() const {
   if (!ui_.show.has_slice || !slice_ || !ui_.is_pointer_over_clay_view) return std::nullopt;
   return shortest_chord(*slice_,
                         part_at(ui_.camera, ui_.show.is_stereo, ui_.pointer).ray_at(ui_.pointer));
+}
+
+/// What the slice leaves of the clay, as the renderer cuts it: the half behind it.
+std::optional<SeenHalf> App::seen_half() const {
+  if (!ui_.show.has_slice || !slice_) return std::nullopt;
+  const Lens lens = ui_.camera.lens({});
+  const Vec3 normal = normalized(cross(slice_->along_mm, slice_->down_mm));
+  const Vec3 to_eye = lens.is_parallel ? lens.back : lens.eye_mm - slice_->corner_mm;
+  const Vec3 kept = dot(normal, to_eye) > 0.0 ? -1.0 * normal : normal;
+  return SeenHalf{kept, dot(kept, slice_->corner_mm)};
 }
 
 /// The force on the tool, and where it is felt.

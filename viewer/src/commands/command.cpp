@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "commands/measure.h"
 #include "commands/piece_edits.h"
 #include "picture/stereo.h"
 
@@ -65,10 +66,19 @@ constexpr CommandInfo kCommands[] = {
     {Command::slice, "View", "Slice", "Shift+W"},
     {Command::stereo, "View", "Stereo", "Shift+Z"},
     {Command::panels, "View", "Panels", "Tab"},
+    {Command::figures, "View", "Clay's figures", ""},
+    {Command::print, "View", "Print", ""},
+    {Command::measure_distance, "Measure", "Distance", "Shift+U"},
+    {Command::measure_angle, "Measure", "Angle", "Ctrl+U"},
+    {Command::measure_thickness, "Measure", "Thickness", "Alt+U"},
+    {Command::measure_list, "Measure", "List of measurements", "Ctrl+Alt+U"},
+    {Command::measure_clear, "Measure", "Clear all", ""},
+    {Command::search, "Help", "Search commands", "Ctrl+K"},
     {Command::help, "Help", "Keys", "F1"},
     {Command::messages, "Help", "Messages", "Ctrl+M"},
     {Command::emergency_stop, "Device", "Stop the force", "Space"},
-    {Command::give_force, "Device", "Give the force again", "Ctrl+Shift+G"}};
+    {Command::give_force, "Device", "Give the force again", "Ctrl+Shift+G"},
+    {Command::device, "Device", "Device panel", ""}};
 
 constexpr double kSizeStep = 1.1;  // of one press; seven about double the size
 constexpr double kStrengthStep = 0.05;
@@ -152,8 +162,51 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::messages:
       ui.panels.has_messages = !ui.panels.has_messages;
       return true;
+    case Command::figures:
+      ui.panels.has_info = !ui.panels.has_info;
+      return true;
+    case Command::print:
+      ui.panels.has_print = !ui.panels.has_print;
+      return true;
+    case Command::device:
+      ui.panels.has_haptics = !ui.panels.has_haptics;
+      return true;
+    case Command::search:
+      ui.search.is_open = true;
+      ui.search.text.clear();
+      ui.search.at = 0;
+      return true;
     case Command::help:
       ui.panels.has_help = !ui.panels.has_help;
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// With its list, unless panels are hidden: whoever has hidden them wants to see the clay.
+void measure_by(MeasureKind kind, UiState& ui) {
+  choose_measure(kind, ui.measures);
+  ui.places_drain = ui.draws_path = false;
+  if (ui.measures.tool && ui.panels.has_tools) ui.panels.has_measures = true;
+}
+
+bool perform_on_measures(Command command, UiState& ui) {
+  switch (command) {
+    case Command::measure_distance:
+      measure_by(MeasureKind::distance, ui);
+      return true;
+    case Command::measure_angle:
+      measure_by(MeasureKind::angle, ui);
+      return true;
+    case Command::measure_thickness:
+      measure_by(MeasureKind::thickness, ui);
+      return true;
+    case Command::measure_clear:
+      clear_measurements(ui.measures);
+      return true;
+    case Command::measure_list:
+      ui.panels.has_measures = !ui.panels.has_measures;
       return true;
     default:
       return false;
@@ -301,6 +354,11 @@ const ToolInfo* tool_named_by(const KeyChord& chord) noexcept {
   return nullptr;
 }
 
+void choose_tool(const ToolInfo& tool, UiState& ui) {
+  leave_measuring(ui.measures);
+  choose(ui.brush, tool);
+}
+
 /// What a held key repeats; anything else would open or toggle as often as the keyboard repeats.
 bool goes_on_while_held(Command command) noexcept {
   switch (command) {
@@ -329,7 +387,12 @@ bool is_possible(Command command, const UiState& ui) noexcept {
     case Command::operations:
     case Command::mask_fill:
     case Command::mask_invert:
+    case Command::measure_distance:
+    case Command::measure_angle:
+    case Command::measure_thickness:
       return ui.clay.has_clay;
+    case Command::measure_clear:
+      return !ui.measures.list.empty() || !ui.measures.begun.empty();
     case Command::mask_clear:
     case Command::mask_blur:
       return ui.clay.has_mask;
@@ -346,6 +409,7 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
   // An undo that is not done yet makes a redo possible: the document thread knows.
   if (!is_possible(command, ui) && command != Command::redo) return;
   if (perform_on_view(command, ui) || perform_on_brush(command, ui)) return;
+  if (perform_on_measures(command, ui)) return;
   if (perform_on_piece(command, ui, document)) return;
   switch (command) {
     case Command::new_clay:
@@ -420,7 +484,8 @@ Dialog open_dialog(const UiState& ui) noexcept {
 }
 
 /// What was to follow them is forgotten with them.
-void close_dialogs(UiState& ui) noexcept {
+bool close_dialogs(UiState& ui) noexcept {
+  const bool was_open = open_dialog(ui) != Dialog::none || ui.panels.has_help;
   ui.panels.is_new_open = false;
   ui.panels.is_operations_open = false;
   ui.panels.is_export_open = false;
@@ -429,6 +494,7 @@ void close_dialogs(UiState& ui) noexcept {
   ui.asks_to_save = false;
   ui.file_wish = FileWish::none;
   ui.after_saving = AfterSaving::nothing;
+  return was_open;
 }
 
 /// Asks first where something would be lost, and else goes on at once.

@@ -62,6 +62,15 @@ enum class Command {
   slice,
   stereo,
   panels,
+  figures,
+  print,
+  measure_distance,
+  measure_angle,
+  measure_thickness,
+  measure_clear,
+  measure_list,
+  device,
+  search,
   help,
   screenshot,
   turntable,
@@ -83,6 +92,9 @@ const CommandInfo& info_of(Command command) noexcept;
 std::optional<Command> command_of(const KeyChord& chord) noexcept;
 const ToolInfo* tool_named_by(const KeyChord& chord) noexcept;
 
+/// The brush works with this tool from now on, and nothing is measured any more.
+void choose_tool(const ToolInfo& tool, UiState& ui);
+
 /// Whether a key that is held down repeats it.
 bool goes_on_while_held(Command command) noexcept;
 
@@ -95,8 +107,8 @@ bool is_possible(Command command, const UiState& ui) noexcept;
 /// The dialog that is open: of several that were asked for, the one to be answered first.
 Dialog open_dialog(const UiState& ui) noexcept;
 
-/// Closes every dialog that may be left unanswered, and the help.
-void close_dialogs(UiState& ui) noexcept;
+/// Closes every dialog that may be left unanswered, and the help. True where one was open.
+bool close_dialogs(UiState& ui) noexcept;
 
 /// Replaces the clay by another or ends the program: at once, or after asking whether to save.
 void leave_clay(AfterSaving then, UiState& ui, DocumentThread& document);

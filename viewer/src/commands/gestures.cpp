@@ -9,6 +9,8 @@
 #include "argil/io/path_file.h"
 
 #include "commands/command.h"
+#include "commands/command_search.h"
+#include "commands/measure.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -38,6 +40,8 @@ Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
 
 void Gestures::on(const InputEvent& event, bool is_taken) {
   const bool is_asked = open_dialog(ui_) != Dialog::none;
+  if (is_asked) ui_.search.is_open = false;
+  if (!is_taken && search_takes(event, ui_, document_)) return;
   switch (event.kind) {
     case InputEvent::Kind::press:
       // The click that ends a change of the brush may be anywhere.
@@ -77,28 +81,17 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     if (!event.is_repeat) perform(Command::emergency_stop, ui_, document_);
     return;
   }
-  if (event.key == kKeyEscape) {
-    const bool ends = pieces_.cancel() || leave_outline() || ui_.brush_drag ||
-                      drag_ == Drag::stroke || ui_.places_drain || ui_.draws_path ||
-                      ui_.turntable_left > 0;
-    ui_.places_drain = false;
-    leave_path();
-    ui_.turntable_left = 0;
-    if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
-    ui_.brush_drag.reset();
-    if (drag_ == Drag::stroke) {
-      stroke_.reset();
-      document_.send(CancelStroke{});
-    }
-    if (drag_ == Drag::stroke || drag_ == Drag::piece) drag_ = Drag::none;
-    if (ends || std::exchange(ui_.asks_to_drop, false)) return;
-    close_dialogs(ui_);
-    if (ui_.clay.left) document_.send(ForgetQuestion{});
-    return;
-  }
+  if (event.key == kKeyEscape) return escape();
   if (is_asked) return;
   // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
   if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
+  if (drag_ == Drag::measure) return;
+  // Whoever measures, or has chosen one in the list, means a measurement, and not the piece that
+  // Delete removes else.
+  const bool is_measuring = ui_.measures.tool || ui_.measures.chosen;
+  if (is_measuring && event.key == kKeyDelete && event.modifiers == Modifiers{}) {
+    return measures_.remove();
+  }
   if (event.key == kClutchKey && event.modifiers == Modifiers{}) {
     ui_.is_clutched = true;
     return;
@@ -108,8 +101,29 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
   if (const auto command = command_of(chord)) {
     if (!event.is_repeat || goes_on_while_held(*command)) perform(*command, ui_, document_);
   } else if (const ToolInfo* tool = tool_named_by(chord)) {
-    choose(ui_.brush, *tool);
+    choose_tool(*tool, ui_);
   }
+}
+
+/// Ends one thing: what is being done, else a dialog, else the tool that measures.
+void Gestures::escape() {
+  const bool ends = pieces_.cancel() || measures_.cancel() || leave_outline() || ui_.brush_drag ||
+                    drag_ == Drag::stroke || ui_.places_drain || ui_.draws_path ||
+                    ui_.turntable_left > 0;
+  ui_.places_drain = false;
+  leave_path();
+  ui_.turntable_left = 0;
+  if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
+  ui_.brush_drag.reset();
+  if (drag_ == Drag::stroke) {
+    stroke_.reset();
+    document_.send(CancelStroke{});
+  }
+  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::measure) drag_ = Drag::none;
+  if (ends || std::exchange(ui_.asks_to_drop, false)) return;
+  const bool was_asked = ui_.clay.left.has_value();
+  if (was_asked) document_.send(ForgetQuestion{});
+  if (!close_dialogs(ui_) && !was_asked) leave_measuring(ui_.measures);
 }
 
 // ---- the mouse ---------------------------------------------------------------------------------
@@ -144,6 +158,8 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   }
   if (event.button == MouseButton::right || held.alt) return Drag::orbit;
   if (pieces_.press(event)) return Drag::piece;
+  if (ui_.measures.tool) return measure(event);
+  ui_.measures.chosen.reset();  // back to the clay
   if (ui_.is_hand_led) return Drag::hand;
   if (begin_outline(event)) return Drag::outline;
   switch (begin_stroke(event)) {
@@ -157,6 +173,14 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
       break;
   }
   return Drag::orbit;
+}
+
+/// Beside the clay the left button turns the view, as with any other tool.
+Gestures::Drag Gestures::measure(const InputEvent& event) {
+  const SurfaceProbe probe = probe_(pixel_of(event));
+  const bool is_on_clay = ui_.clay.has_clay && !ui_.task.is_running &&
+                          (probe.at(pixel_of(event), 0.0) || probe.is_other_at(pixel_of(event)));
+  return measures_.press(event, is_on_clay) ? Drag::measure : Drag::orbit;
 }
 
 void Gestures::place_drain(const InputEvent& event) {
@@ -257,6 +281,7 @@ void Gestures::move(const InputEvent& event) {
   if (drag_ == Drag::stroke) extend_stroke(event);
   if (drag_ == Drag::path) extend_path(event);
   if (drag_ == Drag::piece || drag_ == Drag::none) pieces_.move(event);
+  if (drag_ == Drag::measure || drag_ == Drag::none) measures_.move(event);
   if (drag_ == Drag::outline) extend(*ui_.outline, pixel_of(event));
 }
 
@@ -266,6 +291,7 @@ void Gestures::release(const InputEvent& event) {
   if (drag_ == Drag::path) end_path();
   if (drag_ == Drag::piece) pieces_.release();
   if (drag_ == Drag::outline) end_outline();
+  if (drag_ == Drag::measure) measures_.release(event);
   drag_ = Drag::none;
 }
 
@@ -368,6 +394,7 @@ std::optional<SurfaceHit> Gestures::tool_hit() const {
 }
 
 void Gestures::tick(double now_s) {
+  measures_.tick();
   if (!stroke_ || stroke_->is_off || stroke_->brush.is_stamp || stroke_->brush.hold_s <= 0.0)
     return;
   stroke_->last.time_s = std::max(stroke_->last.time_s, now_s - stroke_->start_s);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "commands/measure_gestures.h"
 #include "commands/piece_gestures.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
@@ -26,7 +27,11 @@ class Gestures {
 
   /// `probe` is called when a stroke begins.
   Gestures(UiState& ui, DocumentThread& document, Probe probe)
-      : ui_(ui), document_(document), probe_(std::move(probe)), pieces_(ui, document) {}
+      : ui_(ui),
+        document_(document),
+        probe_(std::move(probe)),
+        pieces_(ui, document),
+        measures_(ui, document) {}
 
   /// `is_taken`: a panel has taken the event, so that it begins nothing here.
   void on(const InputEvent& event, bool is_taken);
@@ -44,7 +49,7 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan, path, piece, outline };
+  enum class Drag { none, stroke, hand, orbit, pan, path, piece, outline, measure };
   /// What a press of the left button meets.
   enum class Met { stroke, other_piece, nothing };
   struct OpenStroke {
@@ -64,6 +69,7 @@ class Gestures {
   void release(const InputEvent& event);
   void puck(const InputEvent& event);
   void key(const InputEvent& event, bool is_asked);
+  void escape();
   void drag_brush(const InputEvent& event);
   void place_drain(const InputEvent& event);
   void begin_path(const InputEvent& event);
@@ -75,6 +81,7 @@ class Gestures {
   bool leave_outline();
   Met begin_stroke(const InputEvent& event);
   Drag drag_of(const InputEvent& event);
+  Drag measure(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
   std::optional<SurfaceHit> hit_of(const OpenStroke& stroke, const InputEvent& event) const;
@@ -86,6 +93,7 @@ class Gestures {
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;
   PieceGestures pieces_;
+  MeasureGestures measures_;
   std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun
 };
 

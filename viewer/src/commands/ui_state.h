@@ -18,7 +18,9 @@
 
 #include "commands/brush.h"
 #include "commands/import_choice.h"
+#include "commands/measure.h"
 #include "commands/outline.h"
+#include "commands/search_choice.h"
 #include "document/document_thread.h"
 #include "document/settings.h"
 #include "picture/camera.h"
@@ -51,6 +53,7 @@ struct PanelState {
   bool has_haptics = false;
   bool has_print = false;
   bool has_pieces = false;
+  bool has_measures = false;
   bool has_info = false;
   bool has_history = false;
   bool has_messages = false;
@@ -190,10 +193,13 @@ struct UiState {
   PanelState panels;
 
   Camera::Pixel pointer;
+  double panel_scale = 1.0;  ///< of the last frame (scale_of_panels): marks are as large as letters
   bool is_pointer_over_clay_view = false;
   std::optional<Chord> chord;  ///< through the slice's material, under the pointer
   bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
+  MeasureChoice measures;
+  SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document/document_thread.h"
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <new>
@@ -45,7 +46,8 @@ void DocumentThread::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
     const auto has_something = [this] {
-      return is_ending_ || !requests_.empty() || question_ || has_new_view_ || has_new_plane_;
+      return is_ending_ || !requests_.empty() || question_ || has_new_view_ || has_new_plane_ ||
+             !measures_.empty();
     };
     if (worker.waits_for_view()) {
       wake_.wait_for(lock, kViewSoon, has_something);
@@ -73,10 +75,15 @@ void DocumentThread::run() {
     const bool has_plane = std::exchange(has_new_plane_, false);
     const auto view = view_;
     const auto plane = plane_;
+    // Of the clay as it will be once all of that is done.
+    const bool may_measure = requests_.empty() && !worker.has_backlog();
+    const auto measures =
+        may_measure ? std::exchange(measures_, {}) : std::vector<MeasureQuestion>();
     lock.unlock();
 
     std::optional<PointerAnswer> answer;
-    bool has_something_new = request || question || has_view || has_plane;
+    std::vector<MeasureAnswer> measured;
+    bool has_something_new = request || question || has_view || has_plane || !measures.empty();
     try {
       if (has_view) worker.look(*view);
       if (has_plane) worker.cut(plane);
@@ -85,13 +92,19 @@ void DocumentThread::run() {
       if (request || has_view || has_plane || has_worked) worker.show();
       has_something_new = has_something_new || has_worked;
       if (question) answer = worker.answer(question->ray, question->touch);
+      for (const MeasureQuestion& each : measures) measured.push_back(worker.measure(each));
     } catch (const std::bad_alloc&) {
       // The clay is whole; its blocks are sent again with the next thing that is shown.
       worker.out_of_memory();
     }
 
+    // Whoever asked what there was no memory for is told that nothing was met.
+    for (std::size_t n = measured.size(); n < measures.size(); ++n) {
+      measured.emplace_back().number = measures[n].number;
+    }
     lock.lock();
     if (answer) answer_ = answer;
+    measured_.insert(measured_.end(), measured.begin(), measured.end());
     is_busy_ = false;
     has_backlog_ = worker.has_backlog();
     // Last: whoever wakes finds the thread idle if it is.
@@ -130,6 +143,26 @@ std::optional<PointerAnswer> DocumentThread::answer() const {
   return answer_;
 }
 
+void DocumentThread::measure(const MeasureQuestion& question) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto same =
+        std::find_if(measures_.begin(), measures_.end(),
+                     [&](const MeasureQuestion& each) { return each.number == question.number; });
+    if (same == measures_.end()) {
+      measures_.push_back(question);
+    } else {
+      *same = question;
+    }
+  }
+  wake_.notify_all();
+}
+
+std::vector<MeasureAnswer> DocumentThread::take_measured() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(measured_, {});
+}
+
 void DocumentThread::cut(const std::optional<SlicePlane>& plane) {
   {
     const std::lock_guard lock(mutex_);
@@ -144,7 +177,7 @@ void DocumentThread::cut(const std::optional<SlicePlane>& plane) {
 bool DocumentThread::is_idle() const {
   const std::lock_guard lock(mutex_);
   return !is_busy_ && !has_backlog_ && requests_.empty() && !question_ && !has_new_view_ &&
-         !has_new_plane_ && !outbox_.has_blocks();
+         !has_new_plane_ && measures_.empty() && measured_.empty() && !outbox_.has_blocks();
 }
 
 }  // namespace argil::viewer

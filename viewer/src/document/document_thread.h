@@ -15,6 +15,7 @@
 #include "argil/engine/display_surface.h"
 #include "argil/engine/pick.h"
 
+#include "document/measure_pick.h"
 #include "document/outbox.h"
 #include "document/request.h"
 
@@ -47,6 +48,12 @@ class DocumentThread {
   /// Where a ray meets the clay, and what would be felt there: the newest question counts.
   void ask(const Ray& ray, const std::optional<Touch>& touch = {});
   std::optional<PointerAnswer> answer() const;
+
+  /// Where rays meet the clay exactly, once all that was sent before is done: of each number the
+  /// newest question counts.
+  void measure(const MeasureQuestion& question);
+  /// The answers so far, once.
+  std::vector<MeasureAnswer> take_measured();
 
   /// What a slice through the clay shows; nothing when a plane was never asked for.
   void cut(const std::optional<SlicePlane>& plane);
@@ -91,6 +98,8 @@ class DocumentThread {
   };
   std::optional<Question> question_;
   std::optional<PointerAnswer> answer_;
+  std::vector<MeasureQuestion> measures_;
+  std::vector<MeasureAnswer> measured_;
   std::optional<SlicePlane> plane_;
   bool has_new_plane_ = false;
   std::thread thread_;

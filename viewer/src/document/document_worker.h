@@ -10,6 +10,7 @@
 #include "argil/engine/preview.h"
 
 #include "document/document.h"
+#include "document/measure_pick.h"
 #include "document/outbox.h"
 #include "document/request.h"
 #include "document/scene_feed.h"
@@ -35,6 +36,7 @@ class DocumentWorker {
   }
   void cut(const std::optional<SlicePlane>& plane);
   PointerAnswer answer(const Ray& ray, const std::optional<Touch>& touch);
+  MeasureAnswer measure(const MeasureQuestion& question);
 
   /// There was not enough memory for what was being shown: complains, and sends all blocks again.
   void out_of_memory();

@@ -24,9 +24,9 @@ inline constexpr float kBesideTools = 162.0F;
 
 /// Where panels that are opened begin, each at a position of its own: from the tools to the brush.
 inline constexpr float kDevicePanelLeft = kBesideTools;
-inline constexpr float kPrintPanelLeft = kDevicePanelLeft + 308.0F;
-inline constexpr float kPiecesPanelLeft = kBesideTools + 56.0F;  // of tools in three columns
-inline constexpr float kHistoryPanelLeft = kPrintPanelLeft + 288.0F;
+inline constexpr float kPiecesPanelLeft = kBesideTools + 56.0F;      // of tools in three columns
+inline constexpr float kPrintPanelLeft = kPiecesPanelLeft + 278.0F;  // beside either
+inline constexpr float kHistoryPanelLeft = kDevicePanelLeft + 596.0F;
 
 /// Puts the next panel below the menu when it is first opened, farther left where the screen ends.
 void put_beside(float left, float width);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kSweepS = 1.5;  // of a bar that only says that something goes on
 
-constexpr const char* kMenus[] = {"File", "Edit", "Piece",  "Brush",
-                                  "Mask", "View", "Device", "Help"};
+constexpr const char* kMenus[] = {"File", "Edit",    "Piece",  "Brush", "Mask",
+                                  "View", "Measure", "Device", "Help"};
 
 /// Whether the menu shows a tick beside a command.
 bool is_on(Command command, const UiState& ui) {
@@ -50,6 +50,20 @@ bool is_on(Command command, const UiState& ui) {
       return ui.panels.has_messages;
     case Command::help:
       return ui.panels.has_help;
+    case Command::figures:
+      return ui.panels.has_info;
+    case Command::print:
+      return ui.panels.has_print;
+    case Command::device:
+      return ui.panels.has_haptics;
+    case Command::measure_distance:
+      return ui.measures.tool == MeasureKind::distance;
+    case Command::measure_angle:
+      return ui.measures.tool == MeasureKind::angle;
+    case Command::measure_thickness:
+      return ui.measures.tool == MeasureKind::thickness;
+    case Command::measure_list:
+      return ui.panels.has_measures;
     default:
       return false;
   }
@@ -84,18 +98,43 @@ void draw_files(UiState& ui, DocumentThread& document) {
   ImGui::Separator();
 }
 
-/// At the right end of the status line: that the force is stopped, or where help is.
+/// What the buttons of the mouse do now.
+std::string buttons_of(const UiState& ui) {
+  const char* const others = ", middle: move, right: turn";
+  if (!ui.clay.has_clay) return "";
+  if (ui.places_drain) return std::string("Left: place the drain") + others;
+  if (ui.draws_path) return std::string("Left: draw the path") + others;
+  if (ui.is_hand_led && !ui.measures.tool) return std::string("Left: press the tool in") + others;
+  if (ui.measures.tool) return std::string(next_pick(ui.measures)) + others;
+  for (const ToolInfo& info : tool_infos()) {
+    if (!is_chosen(ui.brush, info)) continue;
+    return std::string("Left: ") + info.title + others;
+  }
+  return "";
+}
+
+/// At the right end of the status line: that the force is stopped, else what the mouse does and
+/// where help is, as far as there is room.
 void draw_hint(const UiState& ui, float screen_width) {
-  const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
-  const float left = screen_width - ImGui::CalcTextSize(text).x - 20.0F * unit();
   ImGui::SameLine();
-  // That the force is stopped is shown even over other text.
-  if (ImGui::GetCursorPosX() > left && !ui.is_force_stopped) return;
-  ImGui::SameLine(left);
+  const auto left_of = [&](const std::string& text) {
+    return screen_width - ImGui::CalcTextSize(text.c_str()).x - 20.0F * unit();
+  };
   if (!ui.is_force_stopped) {
-    ImGui::TextDisabled("%s", text);
+    const char* const help = "F1: all keys";
+    const std::string buttons = buttons_of(ui);
+    const std::string whole = buttons.empty() ? help : buttons + "   |   " + help;
+    // Over other text nothing could be read.
+    for (const std::string& text : {whole, std::string(help)}) {
+      if (ImGui::GetCursorPosX() > left_of(text)) continue;
+      ImGui::SameLine(left_of(text));
+      ImGui::TextDisabled("%s", text.c_str());
+      return;
+    }
     return;
   }
+  const char* const text = "FORCE STOPPED";
+  ImGui::SameLine(left_of(text));  // even over other text
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size = ImGui::CalcTextSize(text);
   ImGui::GetWindowDrawList()->AddRectFilled(
@@ -105,12 +144,43 @@ void draw_hint(const UiState& ui, float screen_width) {
   ImGui::TextUnformatted(text);
 }
 
-/// At the right end of the menu, where no panel opens over it, while there is a force to stop.
+/// The project's name, with a star where it was changed since it was saved.
+std::string file_text(const ClayState& clay) {
+  const std::string name = clay.is_untitled ? "not saved yet" : clay.file.filename().string();
+  return name + (clay.is_changed ? " *" : "");
+}
+
+/// Triangles are the renderer's: as many as are shown at this distance.
+void draw_figures(const UiState& ui, const FrameState& frame) {
+  const ClayState& clay = ui.clay;
+  char text[320];
+  const bool has_others = clay.pieces && clay.pieces->pieces.size() > 1;
+  const std::string piece = has_others ? "   |   " + clay.pieces->active_piece().look.name : "";
+  std::snprintf(text, sizeof text,
+                "%s%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
+                "frame %.0f ms   |   undo %d",
+                clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
+                clay.is_changed ? " *" : "", piece.c_str(), grouped(frame.counts.triangles).c_str(),
+                clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
+  ImGui::TextUnformatted(text);
+  if (!frame.latency_ms) return;
+  ImGui::SameLine(0.0F, 0.0F);
+  ImGui::Text("   |   input to screen %.0f ms, p99 %.0f", frame.latency_ms->first,
+              frame.latency_ms->second);
+}
+
+/// Whether the menu leaves no room for STOP behind it.
+bool is_bar_narrow() { return ImGui::GetWindowWidth() < 530.0F * unit(); }
+
+/// At the right end of the menu, where no panel opens over it, while there is a force to stop; at
+/// its left end in a narrow window.
 void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
   if (ui.haptics.device == DeviceChoice::mouse) return;
   const float width = ImGui::CalcTextSize("STOP").x + 2.0F * ImGui::GetStyle().FramePadding.x;
-  ImGui::SetCursorPosX(
-      std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F * unit()));
+  if (!is_bar_narrow()) {
+    ImGui::SetCursorPosX(
+        std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F * unit()));
+  }
   ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
   if (button("STOP")) chosen = Command::emergency_stop;
   ImGui::PopStyleColor();
@@ -121,32 +191,21 @@ void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
 void draw_menu(UiState& ui, DocumentThread& document) {
   if (!ImGui::BeginMainMenuBar()) return;
   std::optional<Command> chosen;
+  if (is_bar_narrow()) draw_bar_stop(chosen, ui);
   for (const char* menu : kMenus) {
     if (!begin_menu(menu)) continue;
     for (const CommandInfo& info : command_infos()) {
       if (std::string_view(info.menu) != menu) continue;
       if (info.command == Command::quit) draw_files(ui, document);
+      if (info.command == Command::figures) ImGui::Separator();
       if (menu_item(info.title, info.chord, is_on(info.command, ui),
                     is_possible(info.command, ui))) {
         chosen = info.command;
       }
     }
-    if (std::string_view(menu) == "View") {
-      ImGui::Separator();
-      if (menu_item("Clay's figures", nullptr, ui.panels.has_info, true)) {
-        ui.panels.has_info = !ui.panels.has_info;
-      }
-      if (menu_item("Print", nullptr, ui.panels.has_print, true)) {
-        ui.panels.has_print = !ui.panels.has_print;
-      }
-    }
-    if (std::string_view(menu) == "Device" &&
-        menu_item("Device panel", nullptr, ui.panels.has_haptics, true)) {
-      ui.panels.has_haptics = !ui.panels.has_haptics;
-    }
     ImGui::EndMenu();
   }
-  draw_bar_stop(chosen, ui);
+  if (!is_bar_narrow()) draw_bar_stop(chosen, ui);
   ImGui::EndMainMenuBar();
   // After the bar is drawn: a command may change what it shows.
   if (chosen) perform(*chosen, ui, document);
@@ -162,26 +221,13 @@ void draw_status(const UiState& ui, const FrameState& frame) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const ClayState& clay = ui.clay;
-  if (clay.has_clay) {
-    // Triangles are the renderer's: as many as are shown at this distance.
-    char text[320];
-    const bool has_others = clay.pieces && clay.pieces->pieces.size() > 1;
-    const std::string piece = has_others ? "   |   " + clay.pieces->active_piece().look.name : "";
-    std::snprintf(text, sizeof text,
-                  "%s%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
-                  "frame %.0f ms   |   undo %d",
-                  clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
-                  clay.is_changed ? " *" : "", piece.c_str(),
-                  grouped(frame.counts.triangles).c_str(), clay.voxel_mm, clay.last_dab_ms,
-                  frame.frame_ms, clay.undo_depth);
-    ImGui::TextUnformatted(text);
-    if (frame.latency_ms) {
-      ImGui::SameLine(0.0F, 0.0F);
-      ImGui::Text("   |   input to screen %.0f ms, p99 %.0f", frame.latency_ms->first,
-                  frame.latency_ms->second);
-    }
-  } else {
+  if (!clay.has_clay) {
     ImGui::TextUnformatted("No clay: File > New, or drop a file here");
+  } else if (ui.measures.tool) {
+    ImGui::Text("%s   |   Measuring: Delete removes what is chosen, Esc leaves",
+                file_text(clay).c_str());
+  } else {
+    draw_figures(ui, frame);
   }
   draw_hint(ui, screen.x);
   ImGui::End();
@@ -190,7 +236,7 @@ void draw_status(const UiState& ui, const FrameState& frame) {
 
 /// Beside the pointer, as a number on a drawing.
 void draw_thickness(const UiState& ui) {
-  if (!ui.chord) return;
+  if (!ui.chord || ui.measures.tool == MeasureKind::thickness) return;
   char text[32];
   std::snprintf(text, sizeof text, "%.2f mm", length(ui.chord->to_mm - ui.chord->from_mm));
   const ImVec2 at{static_cast<float>(ui.pointer.x) + 16.0F * unit(),
@@ -265,9 +311,18 @@ void draw_mouse_keys() {
 void draw_menu_keys(const char* menu) {
   draw_heading(menu);
   for (const CommandInfo& info : command_infos()) {
-    if (std::string_view(info.menu) == menu) draw_key(info.title, info.chord);
+    const bool has_key = *info.chord != '\0';
+    if (std::string_view(info.menu) == menu && has_key) draw_key(info.title, info.chord);
   }
   ImGui::Spacing();
+}
+
+/// What mouse and keys do while something is measured.
+void draw_measure_keys() {
+  draw_key("put a point", "Left");
+  draw_key("move an end", "Left on it");
+  draw_key("remove what is chosen", "Delete");
+  draw_key("give up, leave", "Esc");
 }
 
 }  // namespace
@@ -291,7 +346,8 @@ void draw_help(UiState& ui) {
     for (const char* menu : {"File", "Edit", "Piece", "Mask", "Device", "Help"})
       draw_menu_keys(menu);
     ImGui::TableNextColumn();
-    for (const char* menu : {"View", "Brush"}) draw_menu_keys(menu);
+    for (const char* menu : {"View", "Brush", "Measure"}) draw_menu_keys(menu);
+    draw_measure_keys();
     ImGui::EndTable();
   }
   ImGui::End();

@@ -43,16 +43,18 @@ std::string with_unit(double value, const char* unit) {
 }
 
 /// A tool as its picture, with its name below and its key in the corner.
-void draw_tool(const ToolInfo& info, Brush& brush) {
+void draw_tool(const ToolInfo& info, UiState& ui) {
   const float u = unit();
   const ImVec2 size{kTileWidth * u, kTileHeight * u};
   if (tile(info.title, static_cast<double>(size.x), static_cast<double>(size.y))) {
-    choose(brush, info);
+    choose_tool(info, ui);
   }
+  // While something is measured the brush rests.
+  const bool is_on = is_chosen(ui.brush, info) && !ui.measures.tool;
   const ImVec2 low = ImGui::GetItemRectMin();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (is_chosen(brush, info) || ImGui::IsItemHovered()) {
-    const ImGuiCol color = is_chosen(brush, info) ? ImGuiCol_Header : ImGuiCol_ButtonHovered;
+  if (is_on || ImGui::IsItemHovered()) {
+    const ImGuiCol color = is_on ? ImGuiCol_Header : ImGuiCol_ButtonHovered;
     list.AddRectFilled(low, ImGui::GetItemRectMax(), ImGui::GetColorU32(color), 3.0F * u);
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.help);
@@ -230,7 +232,7 @@ void draw_tools(UiState& ui) {
   int column = 0;
   for (const ToolInfo& info : tool_infos()) {
     if (column > 0) ImGui::SameLine();
-    draw_tool(info, ui.brush);
+    draw_tool(info, ui);
     column = (column + 1) % columns;
   }
   ImGui::PopStyleVar();

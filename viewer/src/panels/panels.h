@@ -35,6 +35,10 @@ void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document)
 void draw_print(UiState& ui, DocumentThread& document);
 void draw_pieces(UiState& ui, DocumentThread& document);
 void draw_switch_hint(const UiState& ui);
+/// Numbers and ends of what was measured, over the picture.
+void draw_measure_marks(const UiState& ui);
+void draw_measures(UiState& ui, DocumentThread& document);
+void draw_search(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
 void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "argil/core/result.h"
+#include "argil/core/vec3.h"
 #include "argil/haptics/falcon/falcon_device.h"
 #include "argil/haptics/force/force_mix.h"
 #include "argil/haptics/servo/adaptive_damping.h"
@@ -60,6 +61,14 @@ struct ViewOptions {
   bool checks_gl = false;
 };
 
+/// What the user measured on the clay, as the window showed it at its end.
+struct ViewMeasurement {
+  std::string kind;    ///< distance, angle, thickness
+  double value = 0.0;  ///< mm; of an angle degrees
+  std::vector<Vec3>
+      points_mm;  ///< in the sculpture's frame: two; of an angle three, its corner second
+};
+
 /// What a window measured, from its opening to its end. Times are of whole frames: input, the
 /// clay's changes, drawing and the swap. Quantiles are by nearest rank, 0 of nothing.
 struct ViewReport {
@@ -83,7 +92,8 @@ struct ViewReport {
   double clay_age_ms_max = 0.0;
   /// Of OpenGL that live at the end, before they are freed: what grows from run to run is a leak.
   std::int64_t gl_objects = 0;
-  std::int64_t gl_errors = 0;  ///< of a debug context, else 0
+  std::int64_t gl_errors = 0;                 ///< of a debug context, else 0
+  std::vector<ViewMeasurement> measurements;  ///< oldest first; those of hidden pieces left out
   /// What was shown to the user as an error, in order. None of it makes `view` fail.
   std::vector<std::string> complaints;
 };

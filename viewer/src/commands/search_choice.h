@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "document/tool_info.h"
+
+namespace argil::viewer {
+
+enum class Command;
+
+/// What the search finds: a command, or a tool to be chosen.
+using SearchAim = std::variant<Command, const ToolInfo*>;
+
+/// What the window remembers of the search.
+struct SearchChoice {
+  static constexpr std::size_t kMostRecent = 8;
+  bool is_open = false;
+  std::string text;               ///< ASCII, as it is typed
+  std::size_t at = 0;             ///< of what is found
+  std::vector<SearchAim> recent;  ///< what was done through it, newest first
+};
+
+}  // namespace argil::viewer
