@@ -54,7 +54,8 @@ Result<ScriptHeader> header_of(const FileLine& where, const Json& json) {
   if (fields.at("argil_strokes") != kScriptVersion) {
     return fields.wrong("argil_strokes", "1, the only version this program reads");
   }
-  if (auto known = fields.only({"argil_strokes", "units", "start", "base_hash"}); !known) {
+  if (auto known = fields.only({"argil_strokes", "units", "start", "base_hash", "keeps_history"});
+      !known) {
     return known.error();
   }
   if (fields.has("units") && fields.at("units") != "mm") return fields.wrong("units", "\"mm\"");
@@ -63,6 +64,10 @@ Result<ScriptHeader> header_of(const FileLine& where, const Json& json) {
     auto hash = fields.hash("base_hash");
     if (!hash) return hash.error();
     header.base_hash = std::move(hash).value();
+  }
+  if (fields.has("keeps_history")) {
+    if (fields.at("keeps_history") != true) return fields.wrong("keeps_history", "true or absent");
+    header.keeps_history = true;
   }
   if (!fields.has("start")) return header;
   auto start = read_start(where, fields.at("start"));

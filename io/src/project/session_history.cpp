@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a session keeps for undo beyond its end, and how the next one reads it. docs/files.md says
+// why every order of the writes is safe.
+#include <algorithm>
+#include <cassert>
+#include <system_error>
+#include <utility>
+
+#include "argil/core/hash_text.h"
+#include "argil/core/no_throw.h"
+#include "argil/io/project_file.h"
+#include "argil/io/safe_file.h"
+
+#include "project/history_cut.h"
+#include "project/session_state.h"
+#include "script/step_solid.h"
+
+namespace argil::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> write_journal_text(const fs::path& file, const std::string& text) {
+  return replace_file(file, [&](const fs::path& temporary) -> Result<void> {
+    OutputFile out(temporary);
+    out.write(text);
+    return out.close();
+  });
+}
+
+/// Files of what the steps from `first` on work with.
+std::set<std::string> solids_of_steps(const Journal& journal, std::size_t first,
+                                      const std::string& front) {
+  std::set<std::string> solids;
+  for (std::size_t n = first; n < journal.steps.size(); ++n) {
+    if (const auto solid = solid_of(journal.steps[n])) solids.insert(name_of(*solid, front).file);
+  }
+  return solids;
+}
+
+}  // namespace
+
+std::string mark_of(const std::string& hash, std::size_t steps) {
+  return sealed_line(mark_line({hash, steps}));
+}
+
+std::string mark_of(const Sculpture& sculpture, std::size_t steps) {
+  return mark_of(hash_text(sculpture.hash()), steps);
+}
+
+Error history_is_lost(const fs::path& project, const std::string& why) {
+  return {ErrorKind::bad_input, "undo ends where " + quoted_name(project) +
+                                    " was opened; the steps before cannot be repeated: " + why};
+}
+
+Result<std::vector<FileAside>> put_aside(const SessionFiles& files, const std::string& word,
+                                         std::vector<std::string>& notes) {
+  std::vector<FileAside> names;
+  for (const fs::path& file : {files.journal, files.origin}) {
+    auto aside = keep_aside(file, word);
+    if (!aside) return aside.error();
+    if (!aside.value()) continue;
+    notes.push_back(quoted_name(file) + " is kept as " + quoted_name(*aside.value()));
+    names.push_back({file, *std::move(aside).value()});
+  }
+  if (auto removed = remove_if_there(files.autosave); !removed) return removed.error();
+  return names;
+}
+
+// ---- reading -----------------------------------------------------------------------------------
+
+bool Session::has_older_steps() const noexcept {
+  return state_->first_step > 0 && state_->history_lost.empty();
+}
+
+HistorySize Session::history_size() const {
+  return {state_->steps, state_->journal->durable_bytes() + state_->beside_bytes};
+}
+
+Result<std::vector<ScriptStep>> Session::told_steps() {
+  return no_throw(state_->files.project.string(), [&]() -> Result<std::vector<ScriptStep>> {
+    if (state_->steps == 0) return std::vector<ScriptStep>();
+    auto told = state_->told();
+    if (!told) return told.error();
+    return std::move(told.value().steps);
+  });
+}
+
+/// All steps repeated from the state that the journal starts from lead to the sculpture as it is,
+/// or it is not its history.
+Result<void> Session::State::deepen(const Progress& progress) {
+  const auto all = told();
+  if (!all) {
+    const ErrorKind kind = all.error().kind;
+    if (kind == ErrorKind::memory || kind == ErrorKind::interrupted) return all.error();
+    history_lost = all.error().message;
+    return history_is_lost(files.project, history_lost);
+  }
+  auto origin = load_sculpture(base());
+  if (!origin && origin.error().kind != ErrorKind::bad_input) return origin.error();
+  std::vector<std::size_t> from;
+  if (origin) from = all.value().positions_of(hash_text(origin.value().hash()));
+  if (from.empty()) {
+    history_lost =
+        origin ? quoted_name(base()) + " is not what they start from" : origin.error().message;
+    return history_is_lost(files.project, history_lost);
+  }
+  if (auto set = origin.value().set_limits(options.limits); !set) return set;
+  auto repeated =
+      repeat_steps(origin.value(), all.value(), from.front(), "read the history", progress);
+  if (!repeated) return repeated.error();
+  const bool is_whole = repeated.value().steps == all.value().steps.size();
+  if (!is_whole || origin.value().hash() != sculpture.hash()) {
+    history_lost = is_whole ? "they lead to another clay" : repeated.value().stopped_by;
+    return history_is_lost(files.project, history_lost);
+  }
+  // An autosave that has begun knows pieces by their numbers, which are others now.
+  copy.reset();
+  sculpture.take_history(std::move(origin).value());
+  first_step = 0;
+  return {};
+}
+
+Result<void> Session::deepen(const Progress& progress) {
+  if (!has_older_steps() || clay().is_stroke_open()) return {};
+  return no_throw(state_->files.project.string(), [&] { return state_->deepen(progress); });
+}
+
+// ---- keeping -----------------------------------------------------------------------------------
+
+void Session::State::weigh_history() {
+  beside_bytes = bytes_of_file(files.origin) + bytes_of_solids(files);
+}
+
+/// The journal first: without it the others mean nothing, without them it would mean less.
+Result<void> Session::State::remove_history() {
+  journal.reset();
+  for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
+    if (auto removed = remove_if_there(file); !removed) return removed;
+  }
+  return remove_solids(files, {});
+}
+
+/// Once the project holds every step.
+Result<void> Session::State::end_history() {
+  assert(steps == saved_steps);
+  if (!keeps_history() || steps == 0 || !is_there(files.origin)) return remove_history();
+  if (!history_lost.empty()) {
+    journal.reset();
+    auto aside = put_aside(files, "unread", notes);
+    return aside ? Result<void>() : aside.error();
+  }
+  if (auto removed = remove_if_there(files.autosave); !removed) return removed;
+  return shorten_history();
+}
+
+/// From too much history the oldest steps go: half of what it may be is left, so that this is rare.
+/// The state it starts from then is where undo leads, which is as exact as the steps and takes a
+/// moment; it reaches no further back than memory does. So a history that is mostly of earlier
+/// sessions may grow to twice the bound first.
+Result<void> Session::State::shorten_history() {
+  const std::uint64_t bytes = journal->durable_bytes() + bytes_of_solids(files);
+  const bool is_too_much = steps > options.history_steps || bytes > options.history_bytes;
+  if (!is_too_much) return {};
+  const bool is_far_too_much =
+      steps > 2 * options.history_steps || bytes > 2 * options.history_bytes;
+  const auto text = read_journal_bytes(files.journal);
+  if (!text) return text.error();
+  if (!text.value()) return {};
+  const auto read = parse_journal(files.journal, text_of(*text.value()));
+  if (!read) return read.error();
+  const Journal& whole = read.value();
+  if (whole.steps.size() != steps || !whole.damage.empty()) return remove_history();
+  const auto cut = history_cut(
+      whole, {options.history_steps / 2, options.history_bytes / 2, sculpture.undo_depth()});
+  const bool is_enough = cut && steps - cut->first >= options.history_steps / 4;
+  if (!is_enough && !is_far_too_much) return {};
+  if (!cut || cut->first == 0) return remove_history();
+
+  const std::string end_hash = hash_text(sculpture.hash());
+  for (int n = 0; n < cut->undos; ++n) {
+    if (!sculpture.undo()) return remove_history();
+  }
+  const std::string base_hash = hash_text(sculpture.hash());
+  // The mark before the new origin, so that both journals know it.
+  journal->push_mark(mark_of(base_hash, cut->first));
+  if (auto flushed = journal->flush(); !flushed) return {};  // stays as it was
+  journal.reset();
+  if (auto kept = save_sculpture(files.origin, sculpture); !kept) return {};
+  const std::string left =
+      shortened(whole, text_of(*text.value()), cut->first, base_hash, end_hash);
+  if (auto written = write_journal_text(files.journal, left); !written) return {};
+  return remove_solids(files, solids_of_steps(whole, cut->first, files.solid_front));
+}
+
+Result<void> Session::forget_history() {
+  return no_throw(state_->files.project.string(), [&]() -> Result<void> {
+    if (clay().is_stroke_open()) {
+      return Error{ErrorKind::bad_input, "a stroke is open; end it before the history goes"};
+    }
+    if (auto saved = state_->save(false); !saved) return saved;
+    return state_->forget_history();
+  });
+}
+
+/// Once the project holds every step. Without their journal the other files mean nothing.
+Result<void> Session::State::forget_history() {
+  const std::uint64_t bytes = journal->durable_bytes();
+  journal.reset();
+  if (auto removed = remove_if_there(files.journal); !removed) {
+    start_journal("", bytes);
+    return removed;
+  }
+  static_cast<void>(remove_history().ok());
+  sculpture.forget_history();
+  steps = saved_steps = autosaved_steps = 0;
+  opened_bytes = saved_bytes = 0;
+  had_origin = false;
+  first_step = 0;
+  history_lost.clear();
+  solids.clear();
+  opened_solids.clear();
+  saved_solids.clear();
+  weigh_history();
+  start_journal(hash_text(sculpture.hash()), 0);
+  return {};
+}
+
+}  // namespace argil::io
