@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a session keeps for undo beyond its end, and how the next one reads it. docs/files.md says
 // why every order of the writes is safe.
-#include <algorithm>
 #include <cassert>
 #include <system_error>
 #include <utility>
@@ -86,37 +85,57 @@ Result<std::vector<ScriptStep>> Session::told_steps() {
   });
 }
 
-/// All steps repeated from the state that the journal starts from lead to the sculpture as it is,
-/// or it is not its history.
+namespace {
+
+/// The sculpture that the steps lead to from the state that they start from, or, as a message, why
+/// there is none.
+struct MadeAnew {
+  std::optional<Sculpture> sculpture;
+  std::string problem;
+};
+
+/// Errors  what another try may bring: memory, interrupted, disk.
+Result<MadeAnew> make_anew(const fs::path& base, const Journal& journal, std::uint64_t hash,
+                           const ClayLimits& limits, const Progress& progress) {
+  MadeAnew made;
+  // A state that was there twice: what can be undone or redone from it is not the same.
+  for (std::size_t n = 0;; ++n) {
+    auto origin = load_sculpture(base);
+    if (!origin && origin.error().kind != ErrorKind::bad_input) return origin.error();
+    if (!origin) return MadeAnew{std::nullopt, origin.error().message};
+    Sculpture& sculpture = origin.value();
+    const auto from = journal.positions_of(hash_text(sculpture.hash()));
+    if (n == 0 && from.empty()) made.problem = quoted_name(base) + " is not what they start from";
+    if (n == from.size()) return made;
+    if (auto set = sculpture.set_limits(limits); !set) return set.error();
+    auto repeated = repeat_steps(sculpture, journal, from[n], "read the history", progress);
+    if (!repeated) return repeated.error();
+    const bool is_whole = repeated.value().steps == journal.steps.size();
+    if (is_whole && sculpture.hash() == hash) return MadeAnew{std::move(sculpture), {}};
+    made.problem = is_whole ? "they lead to another clay" : repeated.value().stopped_by;
+  }
+}
+
+}  // namespace
+
+/// Steps that lead to the sculpture as it is are its history.
 Result<void> Session::State::deepen(const Progress& progress) {
+  const auto lost = [&](std::string why) {
+    history_lost = std::move(why);
+    return history_is_lost(files.project, history_lost);
+  };
   const auto all = told();
   if (!all) {
     const ErrorKind kind = all.error().kind;
     if (kind == ErrorKind::memory || kind == ErrorKind::interrupted) return all.error();
-    history_lost = all.error().message;
-    return history_is_lost(files.project, history_lost);
+    return lost(all.error().message);
   }
-  auto origin = load_sculpture(base());
-  if (!origin && origin.error().kind != ErrorKind::bad_input) return origin.error();
-  std::vector<std::size_t> from;
-  if (origin) from = all.value().positions_of(hash_text(origin.value().hash()));
-  if (from.empty()) {
-    history_lost =
-        origin ? quoted_name(base()) + " is not what they start from" : origin.error().message;
-    return history_is_lost(files.project, history_lost);
-  }
-  if (auto set = origin.value().set_limits(options.limits); !set) return set;
-  auto repeated =
-      repeat_steps(origin.value(), all.value(), from.front(), "read the history", progress);
-  if (!repeated) return repeated.error();
-  const bool is_whole = repeated.value().steps == all.value().steps.size();
-  if (!is_whole || origin.value().hash() != sculpture.hash()) {
-    history_lost = is_whole ? "they lead to another clay" : repeated.value().stopped_by;
-    return history_is_lost(files.project, history_lost);
-  }
+  auto made = make_anew(base(), all.value(), sculpture.hash(), options.limits, progress);
+  if (!made) return made.error();
+  if (!made.value().sculpture) return lost(std::move(made.value().problem));
   // An autosave that has begun knows pieces by their numbers, which are others now.
   copy.reset();
-  sculpture.take_history(std::move(origin).value());
+  sculpture.take_history(*std::move(made.value().sculpture));
   first_step = 0;
   return {};
 }

@@ -147,7 +147,8 @@ class Session {
   /// Errors  interrupted, memory, disk: nothing was changed, and may be tried again; bad_input: the
   ///         steps cannot be repeated; has_older_steps() is false then, and close() puts them aside
   ///         as NAME.journal.jsonl.unread-N.
-  /// Cost    what the steps took, without the hand's time; the memory of a second clay meanwhile.
+  /// Cost    what the steps took, without the hand's time; the memory of a second clay and
+  ///         of its history meanwhile.
   Result<void> deepen(const Progress& progress = {});
 
   /// All steps of the journal. Errors  disk: they are not to be had any more; memory.
