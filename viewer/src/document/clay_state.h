@@ -108,6 +108,12 @@ struct ClayState {
   std::shared_ptr<const MeshOffer> offer;  ///< the last mesh that was looked at; null: none
 };
 
+/// How many steps can be undone, those included that the disk keeps.
+inline std::size_t undo_count(const ClayState& state) {
+  if (state.has_older_steps && state.steps) return state.steps->done;
+  return static_cast<std::size_t>(state.undo_depth);
+}
+
 /// Of the piece that strokes go to; nothing without clay.
 inline std::optional<PieceKey> active_key(const ClayState& state) {
   if (!state.pieces) return std::nullopt;

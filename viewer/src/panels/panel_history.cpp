@@ -15,11 +15,12 @@ namespace argil::viewer {
 namespace {
 
 /// "214 steps, 36 MB".
-std::string words_of_kept(const io::HistorySize& kept) {
+std::string words_of_kept(const StepNames& steps) {
   constexpr double kMegabyte = 1e6;
+  const std::size_t count = steps.names.size();
   char text[96];
-  std::snprintf(text, sizeof text, "%zu %s, %.3g MB", kept.steps,
-                kept.steps == 1 ? "step" : "steps", static_cast<double>(kept.bytes) / kMegabyte);
+  std::snprintf(text, sizeof text, "%zu %s, %.3g MB", count, count == 1 ? "step" : "steps",
+                static_cast<double>(steps.kept.bytes) / kMegabyte);
   return text;
 }
 
@@ -34,7 +35,7 @@ void draw_kept(const UiState& ui, const StepNames& steps, DocumentThread& docume
     ImGui::SetTooltip("Drops all steps, also those that the disk keeps.\nSave first.");
   }
   ImGui::SameLine();
-  ImGui::TextUnformatted(words_of_kept(steps.kept).c_str());
+  ImGui::TextUnformatted(words_of_kept(steps).c_str());
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ struct SessionOptions {
   /// oldest go: half of it is left, or what memory can take back; at twice as many at the latest.
   /// A step is repeated in the time it took the first time, without the hand's: 500 strokes are
   /// some 20 s at the first undo. 500 strokes of 10 s, by a pen that tells 100 samples a second,
-  /// are 40 MB.
+  /// are 50 MB (bench_history).
   std::size_t history_steps = 500;
   std::uint64_t history_bytes = std::uint64_t{256} << 20;
 
