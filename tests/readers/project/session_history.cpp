@@ -8,9 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "argil/core/hash_text.h"
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "script/script_line.h"
 #include "support/effort.h"
 #include "support/scratch.h"
 #include "support/session_life.h"
@@ -259,6 +261,31 @@ TEST_F(SessionHistory, FromAnotherOriginIsNeverTaken) {
   EXPECT_EQ(load_project(file()).value().hash(), hashes_.back());
 }
 
+/// A journal whose first stroke is another, and whose seal says so.
+std::string with_another_stroke(const std::string& journal) {
+  Stroke stroke;
+  stroke.samples = {{0.0, {0.0, 6.0, 0.0}, {}, 1.0}};
+  stroke.tool.radii_mm = {2.0, 2.0, 2.0};
+  const std::size_t begin = journal.find('\n') + 1;
+  return journal.substr(0, begin) + sealed_line(step_line(stroke)) +
+         journal.substr(journal.find('\n', begin));
+}
+
+TEST_F(SessionHistory, ThatLeadsToAnotherClayIsNeverTaken) {
+  work_and_close();
+  const std::string whole = content_of(file("piece.journal.jsonl"));
+  const std::string other = with_another_stroke(whole);
+  ASSERT_NE(other, whole);
+  fill(file("piece.journal.jsonl"), other);
+  Session session = open();
+  EXPECT_THAT(session.notes(), ElementsAre());
+  const auto deepened = session.deepen();
+  ASSERT_FALSE(deepened);
+  EXPECT_THAT(deepened.error().message, HasSubstr("they lead to another clay"));
+  EXPECT_EQ(session.clay().hash(), hashes_.back());
+  EXPECT_EQ(session.sculpture().undo_depth(), 0);
+}
+
 TEST_F(SessionHistory, ThatIsDamagedTakesNothingFromTheStepsBehind) {
   work_and_close();
   const std::string whole = content_of(file("piece.journal.jsonl"));
@@ -462,6 +489,32 @@ TEST_F(SessionHistory, OfTooManyStepsLosesTheOldest) {
     EXPECT_EQ(session.clay().hash(), hashes_[n]);
   }
   EXPECT_FALSE(session.sculpture().undo());
+}
+
+TEST_F(SessionHistory, EndedWhileTheOldestGoHasTheOthers) {
+  {
+    Session session = create();
+    sculpt(session, 0, 10);
+    ASSERT_TRUE(session.close());
+  }
+  const std::string long_journal = content_of(file("piece.journal.jsonl"));
+  {
+    Session session = open(bounded(8, kManyBytes));
+    ASSERT_TRUE(session.deepen());
+    ASSERT_TRUE(session.close());
+  }
+  ASSERT_LT(content_of(file("piece.journal.jsonl")).size(), long_journal.size());
+  // The new origin is there, and not yet the journal that starts from it.
+  fill(file("piece.journal.jsonl"),
+       long_journal + sealed_line(mark_line({hash_text(hashes_[6]), 6})) + "\n");
+  Session session = open();
+  EXPECT_EQ(session.recovered_steps(), 0);
+  ASSERT_TRUE(session.deepen());
+  EXPECT_EQ(session.sculpture().undo_depth(), 4);
+  for (std::size_t n = 10; n-- > 6;) {
+    ASSERT_TRUE(session.sculpture().undo());
+    EXPECT_EQ(session.clay().hash(), hashes_[n]);
+  }
 }
 
 TEST_F(SessionHistory, OfTooManyBytesLosesTheOldest) {
