@@ -153,7 +153,6 @@ void Session::State::weigh_history() {
 
 /// The journal first: without it the others mean nothing, without them it would mean less.
 Result<void> Session::State::remove_history() {
-  journal.reset();
   for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
     if (auto removed = remove_if_there(file); !removed) return removed;
   }
@@ -165,7 +164,6 @@ Result<void> Session::State::end_history() {
   assert(steps == saved_steps);
   if (!keeps_history() || steps == 0 || !is_there(files.origin)) return remove_history();
   if (!history_lost.empty()) {
-    journal.reset();
     auto aside = put_aside(files, "unread", notes);
     return aside ? Result<void>() : aside.error();
   }
@@ -179,37 +177,41 @@ Result<void> Session::State::end_history() {
 /// sessions may grow to twice the bound first.
 Result<void> Session::State::shorten_history() {
   const std::uint64_t bytes = journal->durable_bytes() + bytes_of_solids(files);
-  const bool is_too_much = steps > options.history_steps || bytes > options.history_bytes;
-  if (!is_too_much) return {};
-  const bool is_far_too_much =
-      steps > 2 * options.history_steps || bytes > 2 * options.history_bytes;
+  const std::size_t most = options.history_steps;
+  if (steps <= most && bytes <= options.history_bytes) return {};
+  const bool is_far_too_much = steps > 2 * most || bytes > 2 * options.history_bytes;
   const auto text = read_journal_bytes(files.journal);
   if (!text) return text.error();
   if (!text.value()) return {};
-  const auto read = parse_journal(files.journal, text_of(*text.value()));
-  if (!read) return read.error();
-  const Journal& whole = read.value();
-  if (whole.steps.size() != steps || !whole.damage.empty()) return remove_history();
-  const auto cut = history_cut(
-      whole, {options.history_steps / 2, options.history_bytes / 2, sculpture.undo_depth()});
-  const bool is_enough = cut && steps - cut->first >= options.history_steps / 4;
+  const auto whole = parse_journal(files.journal, text_of(*text.value()));
+  if (!whole) return whole.error();
+  if (whole.value().steps.size() != steps || !whole.value().damage.empty()) return remove_history();
+  const auto cut =
+      history_cut(whole.value(), {most / 2, options.history_bytes / 2, sculpture.undo_depth()});
+  const bool is_enough = cut && steps - cut->first >= most / 4;
   if (!is_enough && !is_far_too_much) return {};
   if (!cut || cut->first == 0) return remove_history();
+  cut_history(whole.value(), text_of(*text.value()), *cut);
+  return {};
+}
 
+/// Takes the sculpture back to the cut: the session is over. What the disk refuses leaves the
+/// history as long as it is.
+void Session::State::cut_history(const Journal& whole, std::string_view text,
+                                 const HistoryCut& cut) {
   const std::string end_hash = hash_text(sculpture.hash());
-  for (int n = 0; n < cut->undos; ++n) {
-    if (!sculpture.undo()) return remove_history();
+  for (int n = 0; n < cut.undos; ++n) {
+    if (!sculpture.undo()) return;
   }
   const std::string base_hash = hash_text(sculpture.hash());
   // The mark before the new origin, so that both journals know it.
-  journal->push_mark(mark_of(base_hash, cut->first));
-  if (auto flushed = journal->flush(); !flushed) return {};  // stays as it was
-  journal.reset();
-  if (auto kept = save_sculpture(files.origin, sculpture); !kept) return {};
-  const std::string left =
-      shortened(whole, text_of(*text.value()), cut->first, base_hash, end_hash);
-  if (auto written = write_journal_text(files.journal, left); !written) return {};
-  return remove_solids(files, solids_of_steps(whole, cut->first, files.solid_front));
+  journal->push_mark(mark_of(base_hash, cut.first));
+  if (!journal->flush()) return;
+  if (!save_sculpture(files.origin, sculpture)) return;
+  const std::string left = shortened(whole, text, cut.first, base_hash, end_hash);
+  if (!write_journal_text(files.journal, left)) return;
+  const auto wanted = solids_of_steps(whole, cut.first, files.solid_front);
+  static_cast<void>(remove_solids(files, wanted).ok());
 }
 
 Result<void> Session::forget_history() {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,8 @@
 #include "project/session_files.h"
 
 namespace argil::io {
+
+struct HistoryCut;
 
 /// What save_as has written under the other name.
 struct WrittenAs {
@@ -80,6 +83,7 @@ struct Session::State {
   Result<void> remove_history();
   Result<void> end_history();
   Result<void> shorten_history();
+  void cut_history(const Journal& whole, std::string_view text, const HistoryCut& cut);
   Result<void> forget_history();
   Result<void> deepen(const Progress& progress);
   void weigh_history();
