@@ -67,7 +67,7 @@ std::string shortened(const Journal& journal, std::string_view text, std::size_t
     left += text.substr(begin, text.find('\n', begin) - begin);
     left += "\n";
   }
-  return left + sealed_line(mark_line({end_hash, journal.steps.size() - first})) + "\n";
+  return left + sealed_line(mark_line({end_hash, journal.steps.size() - first, true})) + "\n";
 }
 
 }  // namespace argil::io

@@ -31,7 +31,7 @@ struct HistoryBounds {
 std::optional<HistoryCut> history_cut(const Journal& journal, const HistoryBounds& bounds);
 
 /// The text of the journal from the cut on, with `base_hash` of the state there and, behind the
-/// last step, the mark of `end_hash`. `text`: of the whole one.
+/// last step, the closing mark of `end_hash`. `text`: of the whole one.
 std::string shortened(const Journal& journal, std::string_view text, std::size_t first,
                       const std::string& base_hash, const std::string& end_hash);
 

@@ -185,6 +185,15 @@ std::optional<std::size_t> Journal::position_of(const std::string& hash) const {
   return positions.back();
 }
 
+std::optional<std::size_t> Journal::position_of_project(const std::string& hash) const {
+  const auto position = position_of(hash);
+  const auto is_later = [&](const HashMark& mark) {
+    return mark.is_closing && mark.after > position.value_or(0);
+  };
+  if (std::any_of(marks.begin(), marks.end(), is_later)) return std::nullopt;
+  return position;
+}
+
 Result<std::optional<UnwrittenBytes>> read_journal_bytes(const fs::path& file) {
   return no_throw(file.string(), [&]() -> Result<std::optional<UnwrittenBytes>> {
     std::error_code error;

@@ -38,6 +38,9 @@ struct Journal {
   std::vector<std::size_t> positions_of(const std::string& hash) const;
   /// The latest of them.
   std::optional<std::size_t> position_of(const std::string& hash) const;
+  /// The same for the hash of the journal's project. Nothing also where a session has ended in
+  /// order since: then the file was replaced by an older one, and no steps were left.
+  std::optional<std::size_t> position_of_project(const std::string& hash) const;
 };
 
 /// The bytes of a journal, nothing of which is read yet; none when there is no such file.

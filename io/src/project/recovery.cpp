@@ -159,7 +159,7 @@ Result<Recovery> recover_once(const SessionFiles& files, const Progress& progres
   const Journal& read = journal.value();
   // Ended before its first line was whole: nothing was finished.
   if (read.base_hash.empty() && read.damage.empty() && read.hole.empty()) return recovery;
-  const auto steps = read.position_of(hash);
+  const auto steps = read.position_of_project(hash);
   if (!steps) {
     recovery.notes.push_back(
         quoted_name(files.journal) + " does not belong to " + quoted_name(files.project) +

@@ -3,6 +3,7 @@
 // docs/files.md.
 #include "argil/io/session.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <chrono>
@@ -117,6 +118,9 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
   had_origin = is_there(files.origin);
   had_history = read.keeps_history;
   first_step = recovery.first_step;
+  is_closed = std::any_of(read.marks.begin(), read.marks.end(), [this](const HashMark& mark) {
+    return mark.is_closing && mark.after == steps;
+  });
   history_lost = read.hole;
   if (!history_lost.empty()) notes.push_back(history_is_lost(files.project, read.hole).message);
   saved_bytes = opened_bytes;
@@ -235,6 +239,7 @@ void Session::State::keep(const ScriptStep& step) {
                        [this, file = name.file, kept = *solid] { return store_solid(file, kept); });
   }
   ++steps;
+  is_closed = false;
 }
 
 void Session::record(const ScriptStep& step) {
@@ -307,12 +312,14 @@ Result<void> Session::State::save(bool keep_origin) {
   if (keep_origin && !is_there(files.origin) && is_there(files.project)) {
     if (auto kept = keep_copy(files.project, files.origin); !kept) return kept;
   }
-  journal->push_mark(mark_of(sculpture, steps));
+  const std::string hash = hash_text(sculpture.hash());
+  journal->push_mark(mark_of(hash, steps));
   if (auto flushed = journal->flush(); !flushed) return flushed;
   // The mark before the project: a crash between the two leaves a journal that knows both states.
   if (auto replaced = save_sculpture(files.project, sculpture); !replaced) return replaced;
   saved_steps = steps;
   saved = true;
+  saved_hash = hash;
   saved_bytes = journal->durable_bytes();
   saved_solids = solids;  // nobody writes any while no line waits
   weigh_history();
@@ -352,7 +359,11 @@ Result<void> Session::State::leave(bool removes_created) {
     if (auto removed = remove_if_there(file); !removed) return removed;
   }
   std::set<std::string> wanted = opened_solids;
-  if (saved) wanted.insert(saved_solids.begin(), saved_solids.end());
+  if (saved) {
+    start_journal("", saved_bytes);
+    mark_as_closed();
+    wanted.insert(saved_solids.begin(), saved_solids.end());
+  }
   return remove_solids(files, wanted);
 }
 
@@ -410,6 +421,7 @@ void Session::State::go_on(const WrittenAs& written, std::size_t done_steps) {
   steps = saved_steps = autosaved_steps = done_steps;
   saved_solids = solids = written.solids;
   saved_bytes = written.journal_bytes;
+  saved_hash = hash_text(sculpture.hash());
   start_journal(written.base_hash, written.journal_bytes);
   weigh_history();
 }

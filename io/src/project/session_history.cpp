@@ -168,7 +168,17 @@ Result<void> Session::State::end_history() {
     return aside ? Result<void>() : aside.error();
   }
   if (auto removed = remove_if_there(files.autosave); !removed) return removed;
+  mark_as_closed();
   return shorten_history();
+}
+
+/// So that an older copy of the project, put in its place, is not taken for one that lacks steps.
+/// Where the disk refuses that, all else still holds.
+void Session::State::mark_as_closed() {
+  if (is_closed) return;
+  const std::string hash = saved_hash.empty() ? hash_text(sculpture.hash()) : saved_hash;
+  journal->push_mark(sealed_line(mark_line({hash, saved_steps, true})));
+  static_cast<void>(journal->flush().ok());
 }
 
 /// From too much history the oldest steps go: half of what it may be is left, so that this is rare.

@@ -82,6 +82,7 @@ struct Session::State {
   bool keeps_history() const noexcept { return options.keeps_history || had_history; }
   Result<void> remove_history();
   Result<void> end_history();
+  void mark_as_closed();
   Result<void> shorten_history();
   void cut_history(const Journal& whole, std::string_view text, const HistoryCut& cut);
   Result<void> forget_history();
@@ -115,6 +116,8 @@ struct Session::State {
   bool had_history = false;            // the journal was kept for undo
   std::size_t first_step = 0;          // of the journal, that the sculpture may take back
   std::string history_lost;            // why those before it cannot be repeated; empty
+  bool is_closed = false;              // the journal says so, and nothing came behind
+  std::string saved_hash;              // of the project, once this session has saved it
   std::uint64_t saved_bytes = 0;       // of the journal, whose end the project is
   std::set<std::string> saved_solids;  // that were there then
   std::uint64_t beside_bytes = 0;      // of origin and solids, when they were last looked at

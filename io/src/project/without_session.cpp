@@ -35,7 +35,7 @@ Result<std::optional<OwnJournal>> read_own_journal(const SessionFiles& files) {
   const std::string hash = hash_text(sculpture.value().hash());
   auto journal = parse_journal(files.journal, text_of(*bytes.value()), hash);
   if (!journal) return journal.error();
-  const auto steps = journal.value().position_of(hash);
+  const auto steps = journal.value().position_of_project(hash);
   if (!steps) return std::optional<OwnJournal>();
   return std::optional(OwnJournal{std::move(journal).value(), *steps});
 }

@@ -49,6 +49,7 @@ struct ScriptHeader {
 struct HashMark {
   std::string hash;
   std::size_t after = 0;
+  bool is_closing = false;  ///< the project is that clay: its session ended in order
 };
 
 using ScriptLine = std::variant<ScriptStep, HashMark>;

@@ -325,12 +325,16 @@ Result<MaskEdit> read_mask_edit(const FileLine& where, const Json& json) {
 
 Result<HashMark> read_mark(const FileLine& where, const Json& json) {
   const Fields fields(where, json);
-  if (auto known = fields.only({"hash", "after"}); !known) return known.error();
+  if (auto known = fields.only({"hash", "after", "closed"}); !known) return known.error();
   auto hash = fields.hash("hash");
   if (!hash) return hash.error();
   if (!fields.has("after")) return fields.missing("after", "give the number of steps before it");
   if (!fields.at("after").is_number_unsigned()) return fields.wrong("after", "a whole number");
-  return HashMark{std::move(hash).value(), fields.at("after").get<std::size_t>()};
+  if (fields.has("closed") && fields.at("closed") != true) {
+    return fields.wrong("closed", "true or absent");
+  }
+  return HashMark{std::move(hash).value(), fields.at("after").get<std::size_t>(),
+                  fields.has("closed")};
 }
 
 template <class Kind, class T>

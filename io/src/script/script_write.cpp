@@ -148,6 +148,7 @@ std::string mark_line(const HashMark& mark) {
   OrderedJson json;
   json["hash"] = mark.hash;
   json["after"] = mark.after;
+  if (mark.is_closing) json["closed"] = true;
   return json.dump();
 }
 

@@ -26,7 +26,7 @@ std::vector<std::uint64_t> work_all(Sculpture& sculpture) {
     hashes.push_back(sculpture.hash());
   };
   std::mt19937 random(3);
-  const auto stroke = [&] {
+  const auto draw = [&] {
     Stroke stroke = random_dab(random, 5.0);
     stroke.tool = {Action::add, Shape::ball, {1.5, 1.5, 1.5}, 1.0};
     stroke.samples.resize(1);
@@ -34,14 +34,14 @@ std::vector<std::uint64_t> work_all(Sculpture& sculpture) {
     EXPECT_TRUE(sculpture.clay().apply(stroke));
     done({});
   };
-  stroke();
-  stroke();
+  draw();
+  draw();
   done(sculpture.apply(CopyPiece{"Clay", "Other"}));
-  stroke();
+  draw();
   EXPECT_TRUE(sculpture.clay().apply(Operation(Cut{{0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, true})));
   done({});
   done(sculpture.apply(RemovePiece{"Clay"}));
-  stroke();
+  draw();
   return hashes;
 }
 

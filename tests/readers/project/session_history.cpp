@@ -240,6 +240,30 @@ TEST_F(SessionHistory, OfAProjectThatAnotherProgramReplacedIsPutAside) {
   EXPECT_TRUE(fs::exists(file("piece.journal.jsonl.foreign-1")));
 }
 
+TEST_F(SessionHistory, OfAProjectThatAnOlderCopyReplacedIsPutAside) {
+  ASSERT_TRUE(save_project(file("old.vdb"), history_start()));
+  work_and_close();
+  for (int n = 0; n < 2; ++n) {
+    // What it was before its first step, and then, by another session's end, before its last.
+    fs::copy_file(file("old.vdb"), file(), fs::copy_options::overwrite_existing);
+    EXPECT_FALSE(left_steps(file()).value()) << "no session was killed";
+    EXPECT_EQ(open_project(file()).value().recovered_steps, 0);
+    Session session = open();
+    EXPECT_EQ(session.recovered_steps(), 0);
+    EXPECT_EQ(session.clay().hash(), load_project(file("old.vdb")).value().hash());
+    EXPECT_THAT(lines_of(session.notes()), HasSubstr("does not belong to 'piece.vdb'"));
+    EXPECT_FALSE(session.has_older_steps());
+    EXPECT_TRUE(fs::exists(file("piece.journal.jsonl.foreign-" + std::to_string(n + 1))));
+    sculpt(session, 30, 1);
+    ASSERT_TRUE(session.save());
+    fs::copy_file(file(), file("old.vdb"), fs::copy_options::overwrite_existing);
+    sculpt(session, 31, 1);
+    ASSERT_TRUE(session.save());
+    sculpt(session, 32, 1);
+    ASSERT_TRUE(n == 0 ? session.discard() : session.close());
+  }
+}
+
 TEST_F(SessionHistory, FromAnotherOriginIsNeverTaken) {
   work_and_close();
   ASSERT_TRUE(save_project(file(".piece.origin.vdb"), Clay::ball(5.0, {0.4, 0.1}).value()));
