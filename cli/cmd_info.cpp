@@ -106,6 +106,13 @@ Result<Outcome> run_info(const std::string& project, const Progress& progress) {
   // Of the project alone, without its journal.
   outcome.json["file_bytes"] = std::filesystem::file_size(project);
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
+  const io::HistorySize& history = opened.value().history;
+  outcome.json["history"] = {{"steps", history.steps}, {"bytes", history.bytes}};
+  if (history.steps > 0) {
+    outcome.text += "history " + std::to_string(history.steps) +
+                    (history.steps == 1 ? " step, " : " steps, ") +
+                    number(1e-6 * static_cast<double>(history.bytes)) + " MB\n";
+  }
   outcome.text += "hash " + hash + "\n";
   return outcome;
 }

@@ -109,6 +109,8 @@ int main(int argc, char** argv) {
   const std::string_view way = argv[4];
   argil::io::SessionOptions options;
   options.is_all_or_nothing = way == "forced-all-or-nothing";
+  options.keeps_history = argil::test::keeps_history(seed);
+  options.history_steps = 10;  // so that the oldest go
   options.autosave_steps = 5;
   options.autosave_leaves = 20;  // so that a copy takes several steps
   auto session = std::filesystem::exists(project)

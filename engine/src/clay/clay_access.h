@@ -32,6 +32,10 @@ struct ClayAccess {
   /// Puts another mask in the place of the clay's, as one undo step. Errors  bad_input while a
   /// stroke is open; memory where `make` throws bad_alloc, which leaves all as it was.
   static Result<void> change_mask(Clay& clay, const MaskMaker& make);
+  /// What each can take back and repeat goes to the other. Both are the same bits, and neither has
+  /// an open stroke.
+  static void swap_histories(Clay& one, Clay& other) noexcept;
+  static void forget_history(Clay& clay) noexcept;
 };
 
 /// Valid until the clay changes or moves.

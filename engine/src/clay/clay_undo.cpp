@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "field/mask.h"
 #include "field/parallel.h"
@@ -221,6 +222,16 @@ Result<std::int64_t> Clay::State::run(
     restore(step);
     throw;
   }
+}
+
+void ClayAccess::swap_histories(Clay& one, Clay& other) noexcept {
+  assert(!one.state_->open && !other.state_->open);
+  std::swap(one.state_->history, other.state_->history);
+}
+
+void ClayAccess::forget_history(Clay& clay) noexcept {
+  assert(!clay.state_->open);
+  clay.state_->history = History();
 }
 
 int Clay::undo_depth() const noexcept { return static_cast<int>(state_->history.undo_depth()); }

@@ -4,48 +4,111 @@
 
 #include <algorithm>
 #include <cassert>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "argil/core/no_throw.h"
-
-#include "file/file_bytes.h"
 
 namespace argil::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-void take_line(ScriptLine line, std::uint64_t end, Journal& journal) {
+void take_line(ScriptLine line, std::uint64_t begin, Journal& journal) {
   if (auto* step = std::get_if<ScriptStep>(&line)) {
     journal.steps.push_back(std::move(*step));
-    assert(journal.ends.empty() || end > journal.ends.back());
-    journal.ends.push_back(end);
+    assert(journal.begins.empty() || begin >= journal.begins.back());
+    journal.begins.push_back(begin);
   } else {
     journal.marks.push_back(std::get<HashMark>(std::move(line)));
   }
 }
 
-/// One whole line into `journal`, which is unchanged on an error.
-Result<void> read_journal_line(const FileLine& where, std::string_view line, std::uint64_t end,
-                               SolidReader& solids, Journal& journal) {
-  if (!is_sealed(line)) return where.error("has no 'xxh64' at its end");
-  if (where.line > 1) {
-    auto read = read_script_line(where, line, solids);
-    if (!read) return read.error();
-    const auto* mark = std::get_if<HashMark>(&read.value());
-    if (mark != nullptr && mark->after > journal.steps.size()) {
-      return where.key_error("after", "names a step that is not there");
-    }
-    take_line(std::move(read).value(), end, journal);
-    return {};
-  }
+Result<void> read_journal_header(const FileLine& where, std::string_view line, Journal& journal) {
   const auto header = read_header_line(where, line);
   if (!header) return header.error();
   if (header.value().base_hash.empty()) return where.key_error("base_hash", "is missing");
   journal.base_hash = header.value().base_hash;
+  journal.keeps_history = header.value().keeps_history;
   return {};
+}
+
+/// One whole line into `journal`, which is unchanged on an error.
+Result<void> read_journal_line(const FileLine& where, std::string_view line, SolidReader& solids,
+                               Journal& journal) {
+  if (!is_sealed(line)) return where.error("has no 'xxh64' at its end");
+  if (where.line == 1) return read_journal_header(where, line, journal);
+  auto read = read_script_line(where, line, solids);
+  if (!read) return read.error();
+  const auto* mark = std::get_if<HashMark>(&read.value());
+  if (mark != nullptr && mark->after > journal.steps.size()) {
+    return where.key_error("after", "names a step that is not there");
+  }
+  take_line(std::move(read).value(), journal.whole_bytes, journal);
+  return {};
+}
+
+/// As mark_line writes it; no other line begins so.
+bool is_mark(std::string_view line) { return line.starts_with("{\"hash\":"); }
+
+/// The mark whose steps need not be read: where its line ends, and how many they are.
+struct KnownMark {
+  std::uint64_t end = 0;
+  std::size_t after = 0;
+};
+
+/// The latest mark of a hash, or nothing before the first line.
+KnownMark find_known(const fs::path& file, std::string_view text, const std::string& hash) {
+  KnownMark known;
+  SolidReader no_solids(file.parent_path());
+  for (std::size_t begin = 0; !hash.empty();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string_view::npos) break;
+    const std::string_view line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (!is_mark(line) || line.find(hash) == std::string_view::npos || !has_whole_seal(line)) {
+      continue;
+    }
+    const auto read = read_script_line({file.string(), 0}, line, no_solids);
+    const auto* mark = read ? std::get_if<HashMark>(&read.value()) : nullptr;
+    if (mark != nullptr && mark->hash == hash && mark->after >= known.after) {
+      known = {begin, mark->after};
+    }
+  }
+  return known;
+}
+
+/// Whether a line lies before the known mark and among its steps.
+bool is_counted(const KnownMark& known, std::uint64_t end, const Journal& journal) {
+  return end <= known.end && (!journal.hole.empty() || journal.steps.size() < known.after);
+}
+
+/// Such a line: a step is only counted. What is wrong there is a hole, which hides how many steps
+/// it holds; the mark says it.
+Result<void> count_line(const FileLine& where, std::string_view line, SolidReader& solids,
+                        Journal& journal) {
+  Result<void> read;
+  if (where.line == 1 || is_mark(line)) {
+    read = read_journal_line(where, line, solids, journal);
+    if (!read && read.error().kind != ErrorKind::bad_input) return read;
+  } else {
+    if (!has_whole_seal(line)) read = where.error("is not whole");
+    take_line(ScriptStep(Stroke()), journal.whole_bytes, journal);
+  }
+  if (!read && journal.hole.empty()) journal.hole = read.error().message;
+  return {};
+}
+
+/// Once the known mark is behind, or what is behind its steps is damaged. Those behind a hole are
+/// counted anew.
+void end_of_counting(const KnownMark& known, const std::string& hash, Journal& journal) {
+  journal.first_read = known.after;
+  if (!journal.hole.empty()) {
+    journal.steps.resize(known.after);
+    journal.begins.resize(known.after, journal.whole_bytes);
+    journal.marks.clear();
+  }
+  journal.marks.push_back({hash, known.after});
 }
 
 /// So that a file which is not ours is never taken for a journal cut off in its first line.
@@ -54,10 +117,26 @@ bool begins_as_header(std::string_view text) {
   return text.substr(0, kBegin.size()) == kBegin.substr(0, text.size());
 }
 
-Result<Journal> parse_journal(const fs::path& file, std::string_view text) {
+/// A line that cannot be read, where the journal ends: cut off, or damaged.
+Result<void> end_at(const FileLine& where, std::string_view line, const Error& error, bool is_last,
+                    Journal& journal) {
+  // What another try may bring is no reason to go on without it.
+  if (error.kind != ErrorKind::bad_input) return error;
+  // A last line may be whole in length and still not in content: its blocks reach the disk in any
+  // order, and nobody was told that it is safe.
+  journal.torn = is_last && where.line > 1 && !has_whole_seal(line);
+  if (!journal.torn) journal.damage = error.message;
+  return {};
+}
+
+}  // namespace
+
+Result<Journal> parse_journal(const fs::path& file, std::string_view text,
+                              const std::string& known_hash) {
   Journal journal;
   FileLine where{file.string(), 0};
   SolidReader solids(file.parent_path());
+  const KnownMark known = find_known(file, text, known_hash);
   while (journal.whole_bytes < text.size()) {
     ++where.line;
     const std::string_view rest = text.substr(journal.whole_bytes);
@@ -69,23 +148,25 @@ Result<Journal> parse_journal(const fs::path& file, std::string_view text) {
     }
     const std::uint64_t end = journal.whole_bytes + length + 1;
     const std::string_view line = rest.substr(0, length);
-    if (auto read = read_journal_line(where, line, end, solids, journal); !read) {
-      // What another try may bring is no reason to go on without it.
-      if (read.error().kind != ErrorKind::bad_input) return read.error();
-      // A last line may be whole in length and still not in content: its blocks reach the disk in
-      // any order, and nobody was told that it is safe.
-      journal.torn = end == text.size() && where.line > 1 && !has_whole_seal(line);
-      if (!journal.torn) journal.damage = read.error().message;
+    const bool counts = is_counted(known, end, journal);
+    auto read = counts ? count_line(where, line, solids, journal)
+                       : read_journal_line(where, line, solids, journal);
+    if (!read) {
+      if (counts) return read.error();
+      if (auto ended = end_at(where, line, read.error(), end == text.size(), journal); !ended) {
+        return ended.error();
+      }
       break;
     }
     journal.whole_bytes = end;
+    if (end == known.end) end_of_counting(known, known_hash, journal);
   }
-  assert(journal.ends.size() == journal.steps.size() && journal.whole_bytes <= text.size());
+  if (journal.whole_bytes < known.end) end_of_counting(known, known_hash, journal);
+  assert(journal.begins.size() == journal.steps.size() && journal.whole_bytes <= text.size());
+  assert(journal.first_read <= journal.steps.size());
   journal.solids = solids.files();
   return journal;
 }
-
-}  // namespace
 
 std::vector<std::size_t> Journal::positions_of(const std::string& hash) const {
   std::vector<std::size_t> positions;
@@ -104,14 +185,31 @@ std::optional<std::size_t> Journal::position_of(const std::string& hash) const {
   return positions.back();
 }
 
+std::optional<std::size_t> Journal::position_of_project(const std::string& hash) const {
+  const auto position = position_of(hash);
+  const auto is_later = [&](const HashMark& mark) {
+    return mark.is_closing && mark.after > position.value_or(0);
+  };
+  if (std::any_of(marks.begin(), marks.end(), is_later)) return std::nullopt;
+  return position;
+}
+
+Result<std::optional<UnwrittenBytes>> read_journal_bytes(const fs::path& file) {
+  return no_throw(file.string(), [&]() -> Result<std::optional<UnwrittenBytes>> {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(file, error))) return std::optional<UnwrittenBytes>();
+    auto bytes = read_file_bytes(file);
+    if (!bytes) return bytes.error();
+    return std::optional<UnwrittenBytes>(std::move(bytes).value());
+  });
+}
+
 Result<std::optional<Journal>> read_journal(const fs::path& file) {
   return no_throw(file.string(), [&]() -> Result<std::optional<Journal>> {
-    std::error_code error;
-    if (!fs::exists(fs::symlink_status(file, error))) return std::optional<Journal>{};
-    const auto bytes = read_file_bytes(file);
+    const auto bytes = read_journal_bytes(file);
     if (!bytes) return bytes.error();
-    auto journal = parse_journal(
-        file, {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()});
+    if (!bytes.value()) return std::optional<Journal>();
+    auto journal = parse_journal(file, text_of(*bytes.value()));
     if (!journal) return journal.error();
     return std::optional<Journal>(std::move(journal).value());
   });

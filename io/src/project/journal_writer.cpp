@@ -92,6 +92,11 @@ Result<void> JournalWriter::state() const {
   return state_;
 }
 
+std::uint64_t JournalWriter::durable_bytes() const {
+  const std::lock_guard held(mutex_);
+  return durable_;
+}
+
 std::size_t JournalWriter::waiting_steps() const {
   const std::lock_guard held(mutex_);
   return static_cast<std::size_t>(std::ranges::count_if(waiting_, &Waiting::is_step));

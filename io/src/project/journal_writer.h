@@ -51,6 +51,9 @@ class JournalWriter {
   /// How the last attempt ended.
   Result<void> state() const;
 
+  /// Of the file, that are on the disk.
+  std::uint64_t durable_bytes() const;
+
   /// Steps that are not on the disk yet.
   std::size_t waiting_steps() const;
 

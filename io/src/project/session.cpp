@@ -3,6 +3,7 @@
 // docs/files.md.
 #include "argil/io/session.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <chrono>
@@ -23,89 +24,51 @@
 #include "argil/io/safe_file.h"
 
 #include "file/file_bytes.h"
-#include "project/journal.h"
-#include "project/journal_writer.h"
-#include "project/project_lock.h"
-#include "project/recovery.h"
-#include "project/session_files.h"
+#include "project/session_state.h"
 #include "script/step_solid.h"
 
 namespace argil::io {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
-bool is_there(const fs::path& file) {
-  std::error_code error;
-  return fs::exists(fs::symlink_status(file, error));
-}
-
-std::string mark_of(const Sculpture& sculpture, std::size_t steps) {
-  return sealed_line(mark_line({hash_text(sculpture.hash()), steps}));
-}
-
-/// A journal nobody can go on with is renamed, together with the state it started from.
-Result<void> put_aside(const SessionFiles& files, const std::string& word,
-                       std::vector<std::string>& notes) {
-  for (const fs::path& file : {files.journal, files.origin}) {
-    auto aside = keep_aside(file, word);
-    if (!aside) return aside.error();
-    if (!aside.value()) continue;
-    notes.push_back(quoted_name(file) + " is kept as " + quoted_name(*aside.value()));
+/// The marks of a state after so many steps.
+std::string marks_after(const Journal& told, std::size_t steps) {
+  std::set<std::string> hashes;
+  for (const HashMark& mark : told.marks) {
+    if (mark.after == steps) hashes.insert(mark.hash);
   }
-  return remove_if_there(files.autosave);
+  std::string text;
+  for (const std::string& hash : hashes) text += mark_of(hash, steps) + "\n";
+  return text;
 }
 
-/// Cuts a journal to its first bytes, keeping a copy when `keep`: steps behind damage are not ours
-/// to throw away.
-Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep,
-                         std::vector<std::string>& notes) {
-  if (keep) {
-    int n = 1;
-    const auto name = [&] { return journal.string() + ".damaged-" + std::to_string(n); };
-    // Never over an older one.
-    while (is_there(name())) ++n;
-    if (auto kept = keep_bytes(journal, name()); !kept) return kept;
-    notes.push_back("the damaged journal is kept as " + quoted_name(name()));
-  }
-  if (::truncate(journal.c_str(), static_cast<off_t>(bytes)) == 0) return {};
-  return disk_error("write", journal, errno);
-}
-
-/// The journal of a session that these steps were told, sealed and ended by the mark of
-/// `sculpture`; what the steps work with is stored under its names and added to `solids`. Errors as
-/// save_solid.
-Result<std::string> journal_text(const Journal& told, const Sculpture& sculpture,
-                                 const SessionFiles& files, std::set<std::string>& solids) {
-  std::string text = sealed_line(header_line({std::nullopt, told.base_hash})) + "\n";
-  for (const ScriptStep& step : told.steps) {
+/// The journal of a session that these steps were told, sealed, with its marks, and ended by that
+/// of `sculpture`; what the steps work with is stored under its names and added to `solids`.
+/// Errors as save_solid.
+Result<std::string> journal_text(const Journal& told, bool keeps_history,
+                                 const Sculpture& sculpture, const SessionFiles& files,
+                                 std::set<std::string>& solids) {
+  std::string text = sealed_line(header_line({std::nullopt, told.base_hash, keeps_history})) + "\n";
+  for (std::size_t n = 0; n < told.steps.size(); ++n) {
+    const ScriptStep& step = told.steps[n];
     const auto solid = solid_of(step);
     const SolidName name = solid ? name_of(*solid, files.solid_front) : SolidName();
     if (solid && solids.insert(name.file).second) {
       auto kept = save_solid(files.project.parent_path() / name.file, *solid);
       if (!kept) return kept.error();
     }
-    text += sealed_line(step_line(step, name)) + "\n";
+    text += sealed_line(step_line(step, name)) + "\n" + marks_after(told, n + 1);
   }
   return text + mark_of(sculpture, told.steps.size()) + "\n";
 }
 
-/// What save_as has written under the other name.
-struct WrittenAs {
-  std::string base_hash;  ///< of the journal, as the next two
-  std::set<std::string> solids;
-  std::uint64_t journal_bytes = 0;  ///< 0: there is none
-  bool has_project = false;
-  std::string undo_lost;  ///< why there is no journal though there were steps
-};
-
 /// All files of a session under another name. The project is the last that takes room; until the
 /// journal has its name, too, the others beside the project mean nothing.
 Result<void> write_told(const SessionFiles& files, const Sculpture& sculpture, const Journal& told,
-                        const fs::path& base, WrittenAs& written) {
+                        bool keeps_history, const fs::path& base, WrittenAs& written) {
   if (auto kept = keep_copy(base, files.origin); !kept) return kept;
-  const auto text = journal_text(told, sculpture, files, written.solids);
+  const auto text = journal_text(told, keeps_history, sculpture, files, written.solids);
   if (!text) return text.error();
   auto done = replace_file(files.journal, [&](const fs::path& temporary) -> Result<void> {
     OutputFile out(temporary);
@@ -123,64 +86,13 @@ Result<void> write_told(const SessionFiles& files, const Sculpture& sculpture, c
 
 }  // namespace
 
-struct Session::State {
-  State(SessionFiles session_files, ProjectLock project_lock, const SessionOptions& session_options,
-        Sculpture session_sculpture)
-      : files(std::move(session_files)),
-        lock(std::move(project_lock)),
-        options(session_options),
-        sculpture(std::move(session_sculpture)) {}
-  ~State() { end_autosave(); }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-
-  Result<void> take_over(const Recovery& recovery);
-  void take_back_when_ended();
-  void start_journal(const std::string& base_hash, std::uint64_t good_bytes);
-  Result<void> save(bool keep_origin);
-  Result<Journal> told();
-  const fs::path& base() const;
-  Result<WrittenAs> write_as(const SessionFiles& to);
-  void go_on(const WrittenAs& written, std::size_t done_steps);
-  Result<void> leave(bool removes_created);
-  void keep(const ScriptStep& step);
-  Result<void> store_solid(const std::string& name, const Solid& solid);
-  void autosave_a_little(bool slow_step);
-  void end_autosave();
-
-  SessionFiles files;
-  ProjectLock lock;
-  SessionOptions options;
-  Sculpture sculpture;
-  std::vector<std::string> notes;
-  std::set<std::string> solids;            // that the disk has; of the journal's thread
-  std::vector<EndSlot> taken_back;         // of what is all or nothing
-  std::vector<EndSlot> taken_back_solids;  // of the journal's thread
-  std::unique_ptr<JournalWriter> journal;  // null when the session is over
-  std::size_t steps = 0;                   // of the journal
-  std::size_t saved_steps = 0;             // of these in the project
-  std::int64_t recovered = 0;
-  std::uint64_t opened_bytes = 0;       // of the journal
-  std::set<std::string> opened_solids;  // that it names
-  bool had_origin = false;
-  bool created = false;
-  bool saved = false;
-
-  std::optional<SculptureCopy> copy;  // of an autosave that has begun
-  std::size_t autosaved_steps = 0;
-  Clock::time_point autosaved_at = Clock::now();
-  std::future<Result<void>> autosave;
-  mutable std::mutex problem_mutex;
-  Result<void> autosave_problem;
-};
-
 // ---- opening -----------------------------------------------------------------------------------
 
 /// Makes the files fit what was recovered, so that the journal can be gone on with.
 Result<void> Session::State::take_over(const Recovery& recovery) {
   remove_stale_temporaries(files);
   if (recovery.is_foreign) {
-    if (auto aside = put_aside(files, "foreign", notes); !aside) return aside;
+    if (auto aside = put_aside(files, "foreign", notes); !aside) return aside.error();
   }
   if (!recovery.journal) {
     for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
@@ -194,7 +106,7 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
   const Journal& read = *recovery.journal;
   const bool cut_short = recovery.steps < read.steps.size();
   opened_bytes =
-      cut_short ? (recovery.steps == 0 ? 0 : read.ends[recovery.steps - 1]) : read.whole_bytes;
+      cut_short ? (recovery.steps == 0 ? 0 : read.begins[recovery.steps]) : read.whole_bytes;
   if (read.torn || !recovery.damage.empty()) {
     if (auto cut = cut_journal(files.journal, opened_bytes, !recovery.damage.empty(), notes); !cut)
       return cut;
@@ -204,7 +116,17 @@ Result<void> Session::State::take_over(const Recovery& recovery) {
   autosaved_steps = steps;
   recovered = static_cast<std::int64_t>(steps - saved_steps);
   had_origin = is_there(files.origin);
-  opened_solids = solids = read.solids;
+  had_history = read.keeps_history;
+  first_step = recovery.first_step;
+  is_closed = std::any_of(read.marks.begin(), read.marks.end(), [this](const HashMark& mark) {
+    return mark.is_closing && mark.after == steps;
+  });
+  history_lost = read.hole;
+  if (!history_lost.empty()) notes.push_back(history_is_lost(files.project, read.hole).message);
+  saved_bytes = opened_bytes;
+  solids = read.solids;
+  opened_solids = solids_beside(files);
+  weigh_history();
   take_back_when_ended();
   start_journal(read.base_hash, opened_bytes);
   return {};
@@ -222,9 +144,9 @@ void Session::State::take_back_when_ended() {
 }
 
 void Session::State::start_journal(const std::string& base_hash, std::uint64_t good_bytes) {
-  journal = std::make_unique<JournalWriter>(
-      JournalWriter::Start{files.journal, sealed_line(header_line({std::nullopt, base_hash})),
-                           good_bytes, options.queue_lines});
+  journal = std::make_unique<JournalWriter>(JournalWriter::Start{
+      files.journal, sealed_line(header_line({std::nullopt, base_hash, keeps_history()})),
+      good_bytes, options.queue_lines});
 }
 
 Result<Session> Session::open(const fs::path& file, const SessionOptions& options,
@@ -317,6 +239,7 @@ void Session::State::keep(const ScriptStep& step) {
                        [this, file = name.file, kept = *solid] { return store_solid(file, kept); });
   }
   ++steps;
+  is_closed = false;
 }
 
 void Session::record(const ScriptStep& step) {
@@ -385,15 +308,21 @@ Result<void> Session::State::save(bool keep_origin) {
   if (auto flushed = journal->flush(); !flushed) return flushed;
   // The project has all of it.
   if (steps == saved_steps) return {};
-  if (keep_origin && !is_there(files.origin)) {
+  // Where the project was removed meanwhile, there is nothing to keep.
+  if (keep_origin && !is_there(files.origin) && is_there(files.project)) {
     if (auto kept = keep_copy(files.project, files.origin); !kept) return kept;
   }
-  journal->push_mark(mark_of(sculpture, steps));
+  const std::string hash = hash_text(sculpture.hash());
+  journal->push_mark(mark_of(hash, steps));
   if (auto flushed = journal->flush(); !flushed) return flushed;
   // The mark before the project: a crash between the two leaves a journal that knows both states.
   if (auto replaced = save_sculpture(files.project, sculpture); !replaced) return replaced;
   saved_steps = steps;
   saved = true;
+  saved_hash = hash;
+  saved_bytes = journal->durable_bytes();
+  saved_solids = solids;  // nobody writes any while no line waits
+  weigh_history();
   return {};
 }
 
@@ -403,13 +332,8 @@ Result<void> Session::save() {
 
 Result<void> Session::close() {
   return no_throw(state_->files.project.string(), [&]() -> Result<void> {
-    if (auto saved = state_->save(false); !saved) return saved;
-    const SessionFiles& files = state_->files;
-    // The journal first: without it the other two mean nothing, without them it would mean less.
-    for (const fs::path& file : {files.journal, files.autosave, files.origin}) {
-      if (auto removed = remove_if_there(file); !removed) return removed;
-    }
-    if (auto removed = remove_solids(files, {}); !removed) return removed;
+    if (auto saved = state_->save(state_->keeps_history()); !saved) return saved.error();
+    if (auto ended = state_->end_history(); !ended) return ended;
     state_.reset();
     return {};
   });
@@ -419,23 +343,28 @@ Result<void> Session::close() {
 Result<void> Session::State::leave(bool removes_created) {
   end_autosave();
   journal.reset();
+  // What was saved is in the project: as after a close, all or what undo of it needs.
+  const bool keeps_saved = saved && keeps_history() && is_there(files.origin);
+  if (saved && !keeps_saved) return remove_history();
+  const std::uint64_t kept_bytes = saved ? saved_bytes : opened_bytes;
   std::vector<fs::path> unwanted;
-  if (saved) {
-    // What was saved is in the project: as after a close. The journal first, as there.
-    unwanted = {files.journal, files.autosave, files.origin};
-  } else {
-    if (opened_bytes == 0) unwanted.push_back(files.journal);
-    if (created && removes_created) unwanted.push_back(files.project);
-    unwanted.push_back(files.autosave);
-    if (!had_origin) unwanted.push_back(files.origin);
-  }
-  if (!saved && opened_bytes > 0) {
-    if (auto cut = cut_journal(files.journal, opened_bytes, false, notes); !cut) return cut;
+  if (kept_bytes == 0) unwanted.push_back(files.journal);
+  if (!saved && created && removes_created) unwanted.push_back(files.project);
+  unwanted.push_back(files.autosave);
+  if (!saved && !had_origin) unwanted.push_back(files.origin);
+  if (kept_bytes > 0) {
+    if (auto cut = cut_journal(files.journal, kept_bytes, false, notes); !cut) return cut;
   }
   for (const fs::path& file : unwanted) {
     if (auto removed = remove_if_there(file); !removed) return removed;
   }
-  return remove_solids(files, saved ? std::set<std::string>() : opened_solids);
+  std::set<std::string> wanted = opened_solids;
+  if (saved) {
+    start_journal("", saved_bytes);
+    mark_as_closed();
+    wanted.insert(saved_solids.begin(), saved_solids.end());
+  }
+  return remove_solids(files, wanted);
 }
 
 Result<void> Session::discard() {
@@ -471,7 +400,7 @@ Result<WrittenAs> Session::State::write_as(const SessionFiles& to) {
   Result<void> done;
   if (steps > 0) {
     const auto all = told();
-    if (all) done = write_told(to, sculpture, all.value(), base(), written);
+    if (all) done = write_told(to, sculpture, all.value(), keeps_history(), base(), written);
     if (all && done) return written;
     written.undo_lost = all ? done.error().message : all.error().message;
   }
@@ -490,9 +419,29 @@ void Session::State::go_on(const WrittenAs& written, std::size_t done_steps) {
   saved = true;
   if (written.journal_bytes == 0) return start_journal(hash_text(sculpture.hash()), 0);
   steps = saved_steps = autosaved_steps = done_steps;
-  solids = written.solids;
+  saved_solids = solids = written.solids;
+  saved_bytes = written.journal_bytes;
+  saved_hash = hash_text(sculpture.hash());
   start_journal(written.base_hash, written.journal_bytes);
+  weigh_history();
 }
+
+namespace {
+
+/// As far as it goes: what is not back has its other name.
+void put_back(const std::vector<FileAside>& files) {
+  for (const FileAside& one : files) {
+    std::error_code ignored;
+    if (!is_there(one.file)) fs::rename(one.aside, one.file, ignored);
+  }
+}
+
+/// The history of a project that was replaced. What stays does no harm.
+void remove_aside(const std::vector<FileAside>& files) {
+  for (const FileAside& one : files) static_cast<void>(remove_if_there(one.aside).ok());
+}
+
+}  // namespace
 
 Result<SavedAs> Session::save_as(const fs::path& file) {
   return no_throw(file.string(), [&]() -> Result<SavedAs> {
@@ -507,9 +456,17 @@ Result<SavedAs> Session::save_as(const fs::path& file) {
     state_->copy.reset();
     remove_stale_temporaries(files);
     SavedAs result;
-    if (auto aside = put_aside(files, "replaced", result.notes); !aside) return aside.error();
+    const bool drops = is_history_alone(files);
+    std::vector<std::string> aside_notes;
+    const auto aside = put_aside(files, "replaced", aside_notes);
+    if (!aside) return aside.error();
     const auto written = state_->write_as(files);
-    if (!written) return written.error();
+    if (!written) {
+      if (drops) put_back(aside.value());
+      return written.error();
+    }
+    if (!drops) result.notes = std::move(aside_notes);
+    if (drops) remove_aside(aside.value());
     const std::string& undo_lost = written.value().undo_lost;
     result.keeps_undo = undo_lost.empty();
     if (!result.keeps_undo) result.notes.push_back("undo ends at the save: " + undo_lost);
@@ -518,102 +475,16 @@ Result<SavedAs> Session::save_as(const fs::path& file) {
         // Undo without its journal could not be repeated after a crash: then the clay
         // goes on without.
         result.keeps_undo ? std::move(state_->sculpture) : copy_of(state_->sculpture));
+    next->had_history = state_->had_history;
+    if (result.keeps_undo) {
+      next->first_step = state_->first_step;
+      next->history_lost = state_->history_lost;
+    }
     next->go_on(written.value(), state_->steps);
     std::swap(state_, next);
     if (auto left = next->leave(false); !left) result.notes.push_back(left.error().message);
     return result;
   });
-}
-
-// ---- without a session -------------------------------------------------------------------------
-
-Result<std::optional<LeftSteps>> left_steps(const fs::path& file) {
-  return no_throw(file.string(), [&]() -> Result<std::optional<LeftSteps>> {
-    const SessionFiles files = session_files(file);
-    const auto sculpture = load_sculpture(files.project);
-    if (!sculpture) return sculpture.error();
-    const auto journal = read_journal(files.journal);
-    if (!journal) return journal.error();
-    if (!journal.value()) return std::optional<LeftSteps>();
-    // A journal of another project is nobody's left steps.
-    const std::size_t all = journal.value()->steps.size();
-    const std::size_t steps =
-        all - journal.value()->position_of(hash_text(sculpture.value().hash())).value_or(all);
-    if (steps == 0) return std::optional<LeftSteps>();
-    std::error_code error;
-    const auto written = fs::last_write_time(files.journal, error);
-    if (error) return disk_error("read", files.journal, error.value());
-    return std::optional(LeftSteps{steps, std::chrono::file_clock::to_sys(written)});
-  });
-}
-
-bool is_in_session(const fs::path& file) {
-  const auto lock = ProjectLock::take(session_files(file).lock, file);
-  return !lock && lock.error().kind == ErrorKind::bad_input;
-}
-
-Result<std::vector<std::string>> put_left_steps_aside(const fs::path& file) {
-  return no_throw(file.string(), [&]() -> Result<std::vector<std::string>> {
-    const SessionFiles files = session_files(file);
-    const auto lock = ProjectLock::take(files.lock, file);
-    if (!lock) return lock.error();
-    std::vector<std::string> notes;
-    if (auto aside = put_aside(files, "left", notes); !aside) return aside.error();
-    return notes;
-  });
-}
-
-Result<void> remove_project(const fs::path& file) {
-  return no_throw(file.string(), [&]() -> Result<void> {
-    const SessionFiles files = session_files(file);
-    const auto lock = ProjectLock::take(files.lock, file);
-    if (!lock) return lock.error();
-    if (auto removed = remove_if_there(files.journal); !removed) return removed;
-    if (auto removed = remove_kept_aside(files); !removed) return removed;
-    if (auto removed = remove_solids(files, {}); !removed) return removed;
-    for (const fs::path& one : {files.autosave, files.origin, files.project}) {
-      if (auto removed = remove_if_there(one); !removed) return removed;
-    }
-    remove_stale_temporaries(files);
-    return {};
-  });
-}
-
-Result<OpenedProject> open_project(const fs::path& file, const Progress& progress) {
-  return no_throw(file.string(), [&]() -> Result<OpenedProject> {
-    SessionFiles files = session_files(file);
-    files.project = file;  // messages name the file as it was given
-    auto recovered = recover(files, progress);
-    if (!recovered) return recovered.error();
-    Recovery& recovery = recovered.value();
-    const auto added = static_cast<std::int64_t>(recovery.steps - recovery.project_steps);
-    return OpenedProject{std::move(recovery.sculpture), added, std::move(recovery.notes)};
-  });
-}
-
-namespace {
-
-template <class Save>
-Result<std::vector<std::string>> replace_by(const fs::path& file, Save save) {
-  return no_throw(file.string(), [&]() -> Result<std::vector<std::string>> {
-    const SessionFiles files = session_files(file);
-    const auto lock = ProjectLock::take(files.lock, file);
-    if (!lock) return lock.error();
-    if (Result<void> saved = save(); !saved) return saved.error();
-    std::vector<std::string> notes;
-    if (auto aside = put_aside(files, "replaced", notes); !aside) return aside.error();
-    return notes;
-  });
-}
-
-}  // namespace
-
-Result<std::vector<std::string>> replace_project(const fs::path& file, const Clay& clay) {
-  return replace_by(file, [&] { return save_project(file, clay); });
-}
-
-Result<std::vector<std::string>> replace_project(const fs::path& file, const Sculpture& sculpture) {
-  return replace_by(file, [&] { return save_sculpture(file, sculpture); });
 }
 
 }  // namespace argil::io

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -79,6 +80,11 @@ bool is_dead(pid_t process) { return process > 0 && ::kill(process, 0) != 0 && e
 
 }  // namespace
 
+bool is_there(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(file, error));
+}
+
 std::string quoted_name(const fs::path& file) {
   std::string quoted(1, '\'');
   return quoted.append(file.filename().string()).append("'");
@@ -98,15 +104,18 @@ SessionFiles session_files(const fs::path& project) {
           hidden(stem, ".solid-")};
 }
 
-Result<std::optional<fs::path>> keep_aside(const fs::path& file, const std::string& word) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(file, error))) return std::optional<fs::path>{};
+fs::path free_aside(const fs::path& file, const std::string& word) {
   for (int n = 1;; ++n) {
-    const fs::path aside = file.string() + "." + word + "-" + std::to_string(n);
-    if (fs::exists(fs::symlink_status(aside, error))) continue;
-    if (::rename(file.c_str(), aside.c_str()) != 0) return disk_error("rename", file, errno);
-    return std::optional<fs::path>(aside);
+    fs::path aside = file.string() + "." + word + "-" + std::to_string(n);
+    if (!is_there(aside)) return aside;
   }
+}
+
+Result<std::optional<fs::path>> keep_aside(const fs::path& file, const std::string& word) {
+  if (!is_there(file)) return std::optional<fs::path>{};
+  const fs::path aside = free_aside(file, word);
+  if (::rename(file.c_str(), aside.c_str()) != 0) return disk_error("rename", file, errno);
+  return std::optional<fs::path>(aside);
 }
 
 Result<void> keep_copy(const fs::path& from, const fs::path& to) {
@@ -125,9 +134,42 @@ Result<void> keep_bytes(const fs::path& from, const fs::path& to) {
   });
 }
 
+Result<void> cut_journal(const fs::path& journal, std::uint64_t bytes, bool keep,
+                         std::vector<std::string>& notes) {
+  if (keep) {
+    const fs::path aside = free_aside(journal, "damaged");  // never over an older one
+    if (auto kept = keep_bytes(journal, aside); !kept) return kept;
+    notes.push_back("the damaged journal is kept as " + quoted_name(aside));
+  }
+  if (::truncate(journal.c_str(), static_cast<off_t>(bytes)) == 0) return {};
+  return disk_error("write", journal, errno);
+}
+
 Result<void> remove_if_there(const fs::path& file) {
   if (::unlink(file.c_str()) == 0 || errno == ENOENT) return {};
   return disk_error("remove", file, errno);
+}
+
+std::set<std::string> solids_beside(const SessionFiles& files) {
+  std::set<std::string> solids;
+  for (std::string& name : names_in(files.project.parent_path())) {
+    if (is_solid(name, files.solid_front)) solids.insert(std::move(name));
+  }
+  return solids;
+}
+
+std::uint64_t bytes_of_file(const fs::path& file) {
+  std::error_code error;
+  const std::uint64_t bytes = fs::file_size(file, error);
+  return error ? 0 : bytes;
+}
+
+std::uint64_t bytes_of_solids(const SessionFiles& files) {
+  std::uint64_t bytes = 0;
+  for (const std::string& name : solids_beside(files)) {
+    bytes += bytes_of_file(files.project.parent_path() / name);
+  }
+  return bytes;
 }
 
 Result<void> remove_solids(const SessionFiles& files, const std::set<std::string>& wanted) {

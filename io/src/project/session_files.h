@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "argil/core/result.h"
 
@@ -20,13 +22,19 @@ struct SessionFiles {
   std::string solid_front;  ///< .NAME.solid-, then HASH.ply, .vdb or .png: what steps work with
 };
 
+/// Whether there is something of that name, be it a link to nothing.
+bool is_there(const std::filesystem::path& file);
+
 /// The name of a file without its folder, in quotes, as messages show it.
 std::string quoted_name(const std::filesystem::path& file);
 
 /// Names only; nothing needs to be there.
 SessionFiles session_files(const std::filesystem::path& project);
 
-/// Renames `file` to the first free FILE.WORD-N and returns that name; nothing when it is not
+/// The first FILE.WORD-N that is free.
+std::filesystem::path free_aside(const std::filesystem::path& file, const std::string& word);
+
+/// Renames `file` to free_aside and returns that name; nothing when it is not
 /// there. Errors  disk.
 Result<std::optional<std::filesystem::path>> keep_aside(const std::filesystem::path& file,
                                                         const std::string& word);
@@ -40,8 +48,21 @@ Result<void> keep_copy(const std::filesystem::path& from, const std::filesystem:
 /// on the disk when this returns, or not there at all. Errors  disk; interrupted.
 Result<void> keep_bytes(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// Cuts a journal to its first bytes, keeping a copy when `keep`, which the notes tell: steps
+/// behind damage are not ours to throw away. Errors  as keep_bytes.
+Result<void> cut_journal(const std::filesystem::path& journal, std::uint64_t bytes, bool keep,
+                         std::vector<std::string>& notes);
+
 /// Removes a file when it is there. Errors  disk.
 Result<void> remove_if_there(const std::filesystem::path& file);
+
+/// The names of all solids beside a project. What cannot be read is passed over.
+std::set<std::string> solids_beside(const SessionFiles& files);
+
+/// Together, as far as they are there.
+std::uint64_t bytes_of_solids(const SessionFiles& files);
+/// 0 where it is not there.
+std::uint64_t bytes_of_file(const std::filesystem::path& file);
 
 /// Removes all solids but `wanted`; none when a journal was kept aside, which may need them.
 /// Errors  disk.

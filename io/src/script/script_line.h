@@ -41,13 +41,15 @@ static_assert(static_cast<int>(HistoryStep::undo) == 0 && static_cast<int>(Histo
 
 struct ScriptHeader {
   std::optional<StartShape> start;
-  std::string base_hash;  ///< of a journal: the clay its steps start from; else empty
+  std::string base_hash;       ///< of a journal: the clay its steps start from; else empty
+  bool keeps_history = false;  ///< of a journal: it stays for undo when its session ends
 };
 
 /// Says in a journal that the clay has this hash after so many of the journal's steps.
 struct HashMark {
   std::string hash;
   std::size_t after = 0;
+  bool is_closing = false;  ///< the project is that clay: its session ended in order
 };
 
 using ScriptLine = std::variant<ScriptStep, HashMark>;

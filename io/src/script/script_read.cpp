@@ -54,7 +54,8 @@ Result<ScriptHeader> header_of(const FileLine& where, const Json& json) {
   if (fields.at("argil_strokes") != kScriptVersion) {
     return fields.wrong("argil_strokes", "1, the only version this program reads");
   }
-  if (auto known = fields.only({"argil_strokes", "units", "start", "base_hash"}); !known) {
+  if (auto known = fields.only({"argil_strokes", "units", "start", "base_hash", "keeps_history"});
+      !known) {
     return known.error();
   }
   if (fields.has("units") && fields.at("units") != "mm") return fields.wrong("units", "\"mm\"");
@@ -63,6 +64,10 @@ Result<ScriptHeader> header_of(const FileLine& where, const Json& json) {
     auto hash = fields.hash("base_hash");
     if (!hash) return hash.error();
     header.base_hash = std::move(hash).value();
+  }
+  if (fields.has("keeps_history")) {
+    if (fields.at("keeps_history") != true) return fields.wrong("keeps_history", "true or absent");
+    header.keeps_history = true;
   }
   if (!fields.has("start")) return header;
   auto start = read_start(where, fields.at("start"));
@@ -320,12 +325,16 @@ Result<MaskEdit> read_mask_edit(const FileLine& where, const Json& json) {
 
 Result<HashMark> read_mark(const FileLine& where, const Json& json) {
   const Fields fields(where, json);
-  if (auto known = fields.only({"hash", "after"}); !known) return known.error();
+  if (auto known = fields.only({"hash", "after", "closed"}); !known) return known.error();
   auto hash = fields.hash("hash");
   if (!hash) return hash.error();
   if (!fields.has("after")) return fields.missing("after", "give the number of steps before it");
   if (!fields.at("after").is_number_unsigned()) return fields.wrong("after", "a whole number");
-  return HashMark{std::move(hash).value(), fields.at("after").get<std::size_t>()};
+  if (fields.has("closed") && fields.at("closed") != true) {
+    return fields.wrong("closed", "true or absent");
+  }
+  return HashMark{std::move(hash).value(), fields.at("after").get<std::size_t>(),
+                  fields.has("closed")};
 }
 
 template <class Kind, class T>

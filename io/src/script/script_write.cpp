@@ -136,6 +136,7 @@ std::string header_line(const ScriptHeader& header) {
   json["units"] = "mm";
   if (header.start) json["start"] = start_json(*header.start);
   if (!header.base_hash.empty()) json["base_hash"] = header.base_hash;
+  if (header.keeps_history) json["keeps_history"] = true;
   return json.dump();
 }
 
@@ -147,6 +148,7 @@ std::string mark_line(const HashMark& mark) {
   OrderedJson json;
   json["hash"] = mark.hash;
   json["after"] = mark.after;
+  if (mark.is_closing) json["closed"] = true;
   return json.dump();
 }
 

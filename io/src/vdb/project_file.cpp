@@ -351,6 +351,18 @@ bool holds_project(const fs::path& file) {
          read.find("argil_format") != std::string_view::npos;
 }
 
+std::string stated_hash(const fs::path& file) {
+  std::array<char, kHead> head{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), head.size());
+  const std::string_view read(head.data(), static_cast<std::size_t>(in.gcount()));
+  // Name, type and value, each behind its length of four bytes.
+  constexpr std::string_view kKey("argil_hash\x06\0\0\0string\x10\0\0\0", 24);
+  const std::size_t at = read.find(kKey);
+  if (at == std::string_view::npos) return {};
+  return std::string(read.substr(at + kKey.size(), 16));
+}
+
 Result<Sculpture> load_sculpture(const fs::path& file) {
   return no_throw(file.string(), [&]() -> Result<Sculpture> {
     const auto bytes = read_file_bytes(file);

@@ -48,6 +48,10 @@ openvdb::MetaMap project_metadata(const ProjectHeader& header);
 Result<ProjectHeader> read_project_header(const std::filesystem::path& file,
                                           const openvdb::MetaMap& meta);
 
+/// The hash that a project says it has, of which nothing is checked; empty where it says none, or
+/// is not to be had.
+std::string stated_hash(const std::filesystem::path& file);
+
 /// bad_input: the file and what is wrong with it.
 Error refused_project(const std::filesystem::path& file, const std::string& what);
 

@@ -151,8 +151,9 @@ class SessionKills : public testing::Test {
         << reported << " steps were reported durable";
   }
 
-  /// The next program goes on as if nothing had been, and leaves only the project.
-  void close_well() {
+  /// The next program goes on as if nothing had been, can take back every step of a history that
+  /// was kept, and without that leaves only the project.
+  void close_well(unsigned seed) {
     const auto opened = open_project(project());
     ASSERT_TRUE(opened) << opened.error().message;
     auto session = Session::open(project());
@@ -160,6 +161,7 @@ class SessionKills : public testing::Test {
     EXPECT_EQ(session.value().sculpture().hash(), opened.value().sculpture.hash());
     const auto closed = session.value().close();
     ASSERT_TRUE(closed) << closed.error().message;
+    drop_history(project(), test::keeps_history(seed));
     EXPECT_THAT(folder_.names(), testing::ElementsAre("piece.vdb"));
     const auto loaded = load_sculpture(project());
     ASSERT_TRUE(loaded) << loaded.error().message;
@@ -167,6 +169,30 @@ class SessionKills : public testing::Test {
     for (std::size_t n = 0; n < loaded.value().piece_count(); ++n) {
       EXPECT_THAT(loaded.value().clay(n).validate(), testing::IsEmpty());
     }
+  }
+
+  /// Reads the history of a project that was closed, which leads to the clay as it is or is none,
+  /// and forgets it.
+  void drop_history(const fs::path& file, bool is_kept) {
+    auto session = Session::open(file);
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_EQ(session.value().recovered_steps(), 0);
+    if (!is_kept) {
+      EXPECT_FALSE(session.value().has_older_steps());
+    }
+    const std::uint64_t hash = session.value().sculpture().hash();
+    if (session.value().has_older_steps()) {
+      const auto deepened = session.value().deepen();
+      ASSERT_TRUE(deepened) << deepened.error().message;
+      ++deepened_;
+    }
+    EXPECT_EQ(session.value().sculpture().hash(), hash);
+    while (session.value().sculpture().undo()) ++taken_back_;
+    ASSERT_TRUE(session.value().discard());
+    session = Session::open(file);
+    ASSERT_TRUE(session && session.value().sculpture().hash() == hash);
+    ASSERT_TRUE(session.value().forget_history());
+    ASSERT_TRUE(session.value().close());
   }
 
   /// So many projects, each with up to three lives on end; more where the kills came too late, and
@@ -186,12 +212,14 @@ class SessionKills : public testing::Test {
       for (unsigned life = 0; life < most && !HasFailure(); ++life, ++lives) {
         exists = one_life(draw_fate(random, static_cast<unsigned>(run) * 10U + life, way));
       }
-      if (exists) close_well();
+      if (exists) close_well(static_cast<unsigned>(run) * 10U);
       for (const std::string& name : folder_.names()) fs::remove(folder_ / name);
     }
-    std::printf("seed %u: %d runs, %d lives, %d killed, %lld steps reported, %lld recovered\n",
-                seed, run, lives, kills_, static_cast<long long>(reported_),
-                static_cast<long long>(recovered_));
+    std::printf(
+        "seed %u: %d runs, %d lives, %d killed, %lld steps reported, %lld recovered, %d histories "
+        "read and %d of their steps taken back\n",
+        seed, run, lives, kills_, static_cast<long long>(reported_),
+        static_cast<long long>(recovered_), deepened_, taken_back_);
     EXPECT_GT(kills_, runs / 2);
     EXPECT_GT(recovered_, runs);
   }
@@ -204,6 +232,8 @@ class SessionKills : public testing::Test {
   int kills_ = 0;
   std::int64_t reported_ = 0;
   std::int64_t recovered_ = 0;
+  int deepened_ = 0;
+  int taken_back_ = 0;
 };
 
 /// The state after so many steps that a project has with its journal; nothing where there is no
@@ -248,9 +278,17 @@ void SessionKills::run_moves(int runs) {
       if (!fs::exists(file)) continue;
       auto session = Session::open(file);
       ASSERT_TRUE(session && session.value().close());
+      drop_history(file, test::keeps_history(fate.seed));
     }
-    for (const std::string& name : folder_.names()) {
-      EXPECT_TRUE(name == "piece.vdb" || name == "moved.vdb" || !fs::exists(moved)) << name;
+    // But for a history that was being replaced, with what its steps work with.
+    const std::vector<std::string> names = folder_.names();
+    const bool has_replaced =
+        test::keeps_history(fate.seed) && std::any_of(names.begin(), names.end(), [](auto& name) {
+          return name.find(".replaced-") != std::string::npos;
+        });
+    for (const std::string& name : names) {
+      EXPECT_TRUE(has_replaced || name == "piece.vdb" || name == "moved.vdb" || !fs::exists(moved))
+          << name;
       fs::remove(folder_ / name);
     }
   }

@@ -378,7 +378,7 @@ bool is_possible(Command command, const UiState& ui) noexcept {
   if (const auto piece = is_piece_possible(command, ui)) return *piece;
   switch (command) {
     case Command::undo:
-      return ui.clay.undo_depth > 0 || ui.clay.is_stroke_open;
+      return ui.clay.undo_depth > 0 || ui.clay.has_older_steps || ui.clay.is_stroke_open;
     case Command::redo:
       return ui.clay.steps && ui.clay.steps->done < ui.clay.steps->names.size();
     case Command::save:  // also of what seems unchanged: a stroke may be under way

@@ -46,7 +46,10 @@ struct LeftQuestion {
 /// The steps that undo and redo can reach, by name, oldest first.
 struct StepNames {
   std::vector<std::string> names;
-  std::size_t done = 0;  ///< of these; the others were undone
+  std::size_t done = 0;       ///< of these; the others were undone
+  std::size_t older = 0;      ///< of these, that are read from the disk when undo comes to them
+  bool has_unread = false;    ///< there are others before, whose names are not read yet
+  io::HistorySize kept = {};  ///< what lies on the disk for undo
 };
 
 /// A mesh to stamp with.
@@ -78,11 +81,12 @@ struct PieceList {
 /// The clay and its document in numbers. What is of one clay is of the active piece.
 struct ClayState {
   bool has_clay = false;
-  std::int64_t number = 0;     ///< differs from clay to clay; saving under another name keeps it
-  std::filesystem::path file;  ///< the project
-  bool is_untitled = false;    ///< kept in the home folder until it is saved
-  bool is_changed = false;     ///< since it was saved
-  int undo_depth = 0;
+  std::int64_t number = 0;       ///< differs from clay to clay; saving under another name keeps it
+  std::filesystem::path file;    ///< the project
+  bool is_untitled = false;      ///< kept in the home folder until it is saved
+  bool is_changed = false;       ///< since it was saved
+  int undo_depth = 0;            ///< that memory holds
+  bool has_older_steps = false;  ///< and there are others, on the disk
   std::shared_ptr<const StepNames> steps;   ///< null without clay
   std::shared_ptr<const PieceList> pieces;  ///< likewise
   bool has_mask = false;
@@ -103,6 +107,12 @@ struct ClayState {
   std::shared_ptr<const Alpha> alpha;      ///< likewise
   std::shared_ptr<const MeshOffer> offer;  ///< the last mesh that was looked at; null: none
 };
+
+/// How many steps can be undone, those included that the disk keeps.
+inline std::size_t undo_count(const ClayState& state) {
+  if (state.has_older_steps && state.steps) return state.steps->done;
+  return static_cast<std::size_t>(state.undo_depth);
+}
 
 /// Of the piece that strokes go to; nothing without clay.
 inline std::optional<PieceKey> active_key(const ClayState& state) {

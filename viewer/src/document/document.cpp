@@ -52,16 +52,15 @@ Result<Clay> clay_of(const io::StartShape& shape) {
   return Clay::block(shape.size_mm, shape.options);
 }
 
+/// Undo goes on after a project was closed.
+const io::SessionOptions kSessionOptions{.keeps_history = true};
+
 /// Ends a session without saving: under its name it is what was saved there last; what has no name
 /// goes, with whatever was recovered for it.
 Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) {
   if (!is_untitled || has_steps_aside(file)) return session.discard();
   if (auto closed = session.close(); !closed) return closed;
-  std::error_code error;
-  fs::remove(file, error);
-  if (!error) return {};
-  return Error{ErrorKind::disk,
-               "cannot remove " + in_quotes(file.string()) + " (" + error.message() + ")"};
+  return io::remove_project(file);
 }
 
 void add_count(std::int64_t n, const char* what, std::vector<std::string>& notes) {
@@ -181,7 +180,62 @@ std::vector<fs::path> left_untitled(const fs::path& home) {
 void Document::record(const io::ScriptStep& step, bool is_stamp) {
   session_->record(step);
   history_.record(step, is_stamp);
+  if (session_->has_older_steps()) return;
   history_.keep(static_cast<std::size_t>(sculpture().undo_depth()), history_.steps().size());
+}
+
+/// Which piece is at hand is no change of the work, though the file says it.
+bool Document::is_changed() const {
+  return session_ && (is_only_here_ || saved_state_ != history_.state());
+}
+
+void Document::note_saved() {
+  saved_steps_ = session_->step_count();
+  saved_state_ = history_.state();
+}
+
+/// What can be reached no more, from here or after deepen(), leaves the list.
+void Document::keep_reachable() {
+  if (session_->has_older_steps()) return;
+  history_.keep(static_cast<std::size_t>(sculpture().undo_depth()),
+                static_cast<std::size_t>(sculpture().redo_depth()));
+}
+
+/// By the journal, from the first step; none where it cannot be read.
+void Document::read_steps() {
+  has_unread_steps_ = false;
+  const bool is_as_saved = !is_changed();
+  const auto told = session_->told_steps();
+  if (!told) return;
+  history_.clear();
+  saved_state_.reset();
+  for (std::size_t n = 0; n <= told.value().size(); ++n) {
+    if (n == saved_steps_) saved_state_ = history_.state();
+    if (n < told.value().size()) history_.record(told.value()[n]);
+  }
+  if (is_as_saved) saved_state_ = history_.state();
+  keep_reachable();
+}
+
+Result<void> Document::deepen(const Progress& progress) {
+  assert(has_project());
+  if (has_unread_steps_) read_steps();
+  const auto deepened = session_->deepen(progress);
+  keep_reachable();
+  return deepened;
+}
+
+Result<void> Document::forget_history() {
+  assert(has_project());
+  if (is_changed()) {
+    return Error{ErrorKind::bad_input,
+                 "the project has changes that are not saved; save it before its history goes"};
+  }
+  if (auto forgotten = session_->forget_history(); !forgotten) return forgotten;
+  history_.clear();
+  has_unread_steps_ = false;
+  note_saved();
+  return {};
 }
 
 /// Asked before the new document is made, which may take long.
@@ -220,8 +274,11 @@ Result<void> Document::take(io::Session session, fs::path file, bool is_untitled
   file_ = std::move(file);
   is_untitled_ = is_untitled;
   is_only_here_ = false;
+  note_saved();
   // Recovered steps are not in the file, so they count as changes.
-  saved_steps_ = session_->step_count() - static_cast<std::size_t>(session_->recovered_steps());
+  saved_steps_ -= static_cast<std::size_t>(session_->recovered_steps());
+  if (session_->recovered_steps() > 0) saved_state_.reset();
+  has_unread_steps_ = session_->step_count() > 0;
   return {};
 }
 
@@ -229,7 +286,7 @@ Result<void> Document::start_untitled(Sculpture sculpture, bool saves_former) {
   const fs::path folder = home_ / "unsaved";
   if (auto made = make_folder(folder); !made) return made;
   const fs::path file = free_untitled(folder);
-  auto session = io::Session::create(file, std::move(sculpture));
+  auto session = io::Session::create(file, std::move(sculpture), kSessionOptions);
   if (!session) return session.error();
   return take(std::move(session).value(), file, true, saves_former);
 }
@@ -249,24 +306,16 @@ Result<std::vector<std::string>> Document::open(const fs::path& project, bool sa
                                            " is open in this window already; undo goes back to "
                                            "what it was"};
   }
-  auto session = io::Session::open(project, {}, progress);
+  auto session = io::Session::open(project, kSessionOptions, progress);
   if (!session) return session.error();
   const bool is_untitled = is_without_name(project);
   const std::vector<std::string> notes = session.value().notes();
   auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();
   is_only_here_ = is_untitled;
-  recall_steps();
+  // What was recovered shall be seen at once; what was kept can wait.
+  if (session_->recovered_steps() > 0) read_steps();
   return notes;
-}
-
-/// The steps that a recovery repeated, by the journal; none where it cannot be read.
-void Document::recall_steps() {
-  const auto read = io::read_stroke_script(journal_of(file_));
-  if (!read) return;
-  for (const io::ScriptStep& step : read.value().steps) history_.record(step);
-  history_.keep(static_cast<std::size_t>(sculpture().undo_depth()),
-                static_cast<std::size_t>(sculpture().redo_depth()));
 }
 
 Result<std::vector<std::string>> Document::import(const fs::path& mesh, const MeshImport& how,
@@ -292,7 +341,7 @@ Result<void> Document::save() {
     if (auto written = io::save_sculpture(file_, sculpture()); !written) return written;
   }
   if (auto saved = session_->save(); !saved) return saved;
-  saved_steps_ = session_->step_count();
+  note_saved();
   return {};
 }
 
@@ -316,7 +365,7 @@ Result<std::vector<std::string>> Document::save_as(const fs::path& file) {
   file_ = file;
   is_untitled_ = false;
   is_only_here_ = false;
-  saved_steps_ = session_->step_count();
+  note_saved();
   return std::move(saved).value().notes;
 }
 
@@ -335,7 +384,9 @@ Result<void> Document::end(bool saves) {
   file_.clear();
   is_untitled_ = false;
   is_only_here_ = false;
+  has_unread_steps_ = false;
   saved_steps_ = 0;
+  saved_state_.reset();
   return {};
 }
 

@@ -38,15 +38,29 @@ class Document {
   bool is_untitled() const noexcept { return is_untitled_; }
   /// Whether a project is one that has no name yet, of this window or a killed one.
   bool is_without_name(const std::filesystem::path& project) const;
-  /// Whether something was done since it was saved, opened or made. What is found nowhere else, an
-  /// import or what a killed window left without a name, is changed until it has a name.
-  bool is_changed() const {
-    return session_ && (session_->step_count() != saved_steps_ || is_only_here_);
-  }
+  /// Whether it differs from what was saved, opened or made: undo and redo lead back to that. What
+  /// is found nowhere else, an import or what a killed window left without a name, is changed until
+  /// it has a name.
+  bool is_changed() const;
   /// A step that was just applied to the clay.
   void record(const io::ScriptStep& step, bool is_stamp = false);
-  /// What undo and redo can reach.
+  /// What undo and redo can reach, as far as it was read.
   const StepHistory& history() const noexcept { return history_; }
+
+  // Steps of before the project was opened, which its journal kept.
+
+  /// Whether they are not in history() yet. It takes a moment that nobody shall wait for who wants
+  /// to see the clay.
+  bool has_unread_steps() const noexcept { return has_unread_steps_; }
+  void read_steps();
+  /// Whether undo or redo can reach them after deepen(), as Session::deepen.
+  bool has_older_steps() const noexcept { return session_ && session_->has_older_steps(); }
+  Result<void> deepen(const Progress& progress);
+  /// Where has_project().
+  io::HistorySize history_size() const { return session_->history_size(); }
+  /// Errors  as Session::forget_history; bad_input for what has changes that are not saved.
+  Result<void> forget_history();
+
   /// What the disk last refused: of the session, or of the clean-up behind the one before.
   Result<void> problem() const;
 
@@ -85,7 +99,8 @@ class Document {
   bool is_among_untitled(const std::filesystem::path& file) const;
   Result<void> take(io::Session session, std::filesystem::path file, bool is_untitled, bool saves);
   Result<void> start_untitled(Sculpture sculpture, bool saves_former);
-  void recall_steps();
+  void keep_reachable();
+  void note_saved();
 
   std::filesystem::path home_;
   std::optional<io::Session> session_;
@@ -93,7 +108,9 @@ class Document {
   std::filesystem::path file_;
   bool is_untitled_ = false;
   bool is_only_here_ = false;  ///< work that no project with a name has
-  std::size_t saved_steps_ = 0;
+  bool has_unread_steps_ = false;
+  std::size_t saved_steps_ = 0;               ///< of the session's, in the file
+  std::optional<std::uint64_t> saved_state_;  ///< of history_, in the file; nothing: none of it
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };
 

@@ -68,6 +68,7 @@ void DocumentWorker::post_state() {
     state.is_untitled = document_.is_untitled();
     state.is_changed = document_.is_changed();
     state.undo_depth = document_.sculpture().undo_depth();
+    state.has_older_steps = document_.has_older_steps();
     state.pieces_added = pieces_added_;
     state.steps = step_names();
     state.has_mask = clay.has_mask();
@@ -89,6 +90,10 @@ std::shared_ptr<const StepNames> DocumentWorker::step_names() {
   auto names = std::make_shared<StepNames>();
   names->names = document_.history().names();
   names->done = document_.history().done();
+  names->has_unread = document_.has_unread_steps();
+  const auto held = static_cast<std::size_t>(document_.sculpture().undo_depth());
+  if (document_.has_older_steps()) names->older = names->done - std::min(names->done, held);
+  names->kept = document_.history_size();
   named_changes_ = changes_;
   return step_names_ = std::move(names);
 }
@@ -299,12 +304,12 @@ void DocumentWorker::on(const BeginStroke& begin) {
   if (!has_clay("sculpt")) return;
   // One whose dabs the clay still works off, or a clay of which only coarse levels are shown: a
   // preview begins with what is drawn of the clay.
-  const bool is_behind = has_backlog();
+  const bool was_behind = is_behind();
   end_open_stroke();
   // Also where it is refused: Escape takes back nothing of the gesture before.
   if (!begin.goes_on) gesture_strokes_ = 0;
   if (auto may = check_may_be_worked(); !may) return complain(may.error());
-  if (is_behind) show();
+  if (was_behind) show();
   is_stamp_ = begin.is_stamp;
   // Without memory for it the clay itself is shown.
   BlockFeed& feed = feed_.active(document_.sculpture());
@@ -359,6 +364,11 @@ Result<int> DocumentWorker::queue(const std::vector<StrokeSample>& samples) {
 /// The clay itself changes here out of sight: there is something to show only when the stroke is
 /// done and the preview goes.
 bool DocumentWorker::work_backlog() {
+  if (!preview_ && !is_sketched_ && document_.has_unread_steps()) {
+    document_.read_steps();
+    named_changes_ = -1;
+    return true;
+  }
   if (!preview_) return is_sketched_;
   Clay& clay = document_.clay();
   if (clay.waiting_dabs() > 0) {
@@ -436,16 +446,43 @@ void DocumentWorker::on(const CancelStroke&) {
   feed_.active(document_.sculpture()).touch_mask_everywhere();
 }
 
+/// Undo or redo. Where it comes to steps of before the project was opened, they are repeated first,
+/// on a second clay: that may be long.
+Result<StrokeReport> DocumentWorker::move_in_history(io::HistoryStep move) {
+  auto done = io::apply_step(document_.sculpture(), move);
+  if (done || !document_.has_older_steps()) return done;
+  if (document_.has_unread_steps()) document_.read_steps();
+  const StepHistory& history = document_.history();
+  const bool may_be_there =
+      move == io::HistoryStep::undo || history.done() < history.steps().size();
+  if (!may_be_there) return done;
+  const Progress progress = outbox_.begin_task("read the history");
+  const auto deepened = document_.deepen(progress);
+  outbox_.end_task();
+  named_changes_ = -1;
+  if (!deepened) return deepened.error();
+  return io::apply_step(document_.sculpture(), move);
+}
+
 /// One undo or redo, recorded; false where the clay refused.
 bool DocumentWorker::apply_history(io::HistoryStep move) {
-  if (auto done = io::apply_step(document_.sculpture(), move); !done) {
-    complain(done.error());
+  if (auto done = move_in_history(move); !done) {
+    if (done.error().kind != ErrorKind::interrupted) complain(done.error());
     return false;
   }
   document_.record(move);
   ++changes_;
   piece_list_changed();
   return true;
+}
+
+/// That there is nothing is no fault, nor that the user stopped it.
+void DocumentWorker::complain_about(io::HistoryStep move, const Error& error) {
+  if (error.kind == ErrorKind::interrupted) return;
+  const bool is_nothing = error.message.starts_with("there is nothing to ");
+  if (!is_nothing) return complain(error);
+  const bool is_undo = move == io::HistoryStep::undo;
+  post(Notice::Kind::warning, is_undo ? "there is nothing to undo" : "there is nothing to redo");
 }
 
 void DocumentWorker::on(const DoStep& wanted) {
@@ -456,19 +493,16 @@ void DocumentWorker::on(const DoStep& wanted) {
   const auto* move = std::get_if<io::HistoryStep>(&wanted.step);
   const bool is_history = move != nullptr;
   const bool may_mask = may_touch_mask(wanted.step);
-  // Undo and redo are too short for a bar.
-  const Progress progress = is_history ? Progress() : outbox_.begin_task("change the clay");
-  const auto done = io::apply_step(document_.sculpture(), wanted.step, progress);
-  if (!is_history) outbox_.end_task();
-  if (!done) {
-    if (is_history) {
-      const bool is_undo = *move == io::HistoryStep::undo;
-      post(Notice::Kind::warning,
-           is_undo ? "there is nothing to undo" : "there is nothing to redo");
-    } else if (done.error().kind != ErrorKind::interrupted) {
-      complain(done.error());
+  if (is_history) {
+    if (auto done = move_in_history(*move); !done) return complain_about(*move, done.error());
+  } else {
+    const Progress progress = outbox_.begin_task("change the clay");
+    const auto done = io::apply_step(document_.sculpture(), wanted.step, progress);
+    outbox_.end_task();
+    if (!done) {
+      if (done.error().kind != ErrorKind::interrupted) complain(done.error());
+      return;
     }
-    return;
   }
   document_.record(wanted.step);
   ++changes_;
@@ -493,6 +527,8 @@ void DocumentWorker::on(const GoToStep& wanted) {
   if (!has_clay("change")) return;
   end_open_stroke();
   gesture_strokes_ = 0;
+  // By a list that is not whole yet nobody can tell which step is meant.
+  if (document_.has_unread_steps()) return;
   // The window may have counted steps that are gone meanwhile.
   const std::size_t most = document_.history().steps().size();
   const std::size_t aim = std::min(wanted.done, most);
@@ -642,6 +678,15 @@ void DocumentWorker::on(const SendBlocksAgain&) {
   feed_.restart();
 }
 
+void DocumentWorker::on(const ForgetHistory&) {
+  if (!has_clay("forget the history of")) return;
+  end_open_stroke();
+  gesture_strokes_ = 0;
+  if (auto forgotten = document_.forget_history(); !forgotten) return complain(forgotten.error());
+  ++changes_;
+  post(Notice::Kind::done, "forgot the history of " + file_in_quotes(document_.file()));
+}
+
 void DocumentWorker::on(const SaveProject&) {
   if (!has_clay("save")) return;
   end_open_stroke();
@@ -649,6 +694,7 @@ void DocumentWorker::on(const SaveProject&) {
   const auto saved = document_.save();
   outbox_.end_task();
   if (!saved) return complain(saved.error());
+  named_changes_ = -1;  // what is kept of them has another size
   post(Notice::Kind::done, "saved " + file_in_quotes(document_.file()));
 }
 

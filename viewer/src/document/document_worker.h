@@ -41,10 +41,11 @@ class DocumentWorker {
   /// There was not enough memory for what was being shown: complains, and sends all blocks again.
   void out_of_memory();
 
-  /// A large stroke is shown as a preview, and dabs of the clay itself still wait; or a clay that
-  /// has just come is shown by its coarse levels alone.
-  bool has_backlog() const noexcept { return preview_.has_value() || is_sketched_; }
-  /// Applies one of these dabs; true when there is something to show.
+  /// What is done when no request waits: a large stroke is shown as a preview, and dabs of the clay
+  /// itself still wait; or a clay that has just come is shown by its coarse levels alone; or the
+  /// names of its older steps are not read.
+  bool has_backlog() const noexcept { return is_behind() || document_.has_unread_steps(); }
+  /// Applies one of these dabs, or reads the names; true when there is something to show.
   bool work_backlog();
   /// Shown in detail it will be as the window sees it: worth waiting for the window to say so.
   bool waits_for_view() const noexcept { return is_sketched_; }
@@ -76,6 +77,7 @@ class DocumentWorker {
   void on(const LoadAlpha& load);
   void on(const CheckPath& check);
   void on(const SendBlocksAgain&);
+  void on(const ForgetHistory&);
   void on(const SaveProject&);
   void on(const SaveProjectAs& save);
   void on(const EndProject& end);
@@ -94,6 +96,9 @@ class DocumentWorker {
   void note_mask(const Stroke& stroke);
   bool asks_about_left_steps(const OpenFile& open);
   void end_open_stroke();
+  /// What is drawn is not the clay as it is.
+  bool is_behind() const noexcept { return preview_.has_value() || is_sketched_; }
+  Result<StrokeReport> move_in_history(io::HistoryStep move);
   bool apply_history(io::HistoryStep move);
   Result<int> queue(const std::vector<StrokeSample>& samples);
   void drop_preview();
@@ -102,6 +107,7 @@ class DocumentWorker {
   void take_hand();
   void post(Notice::Kind kind, std::string text);
   void complain(const Error& error);
+  void complain_about(io::HistoryStep move, const Error& error);
   void post_all(const std::vector<std::string>& notes);
   void post_state();
   void post_pieces(ClayState& state);

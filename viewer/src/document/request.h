@@ -130,6 +130,8 @@ struct DropProject {
 };
 /// A renderer had no room for blocks: all of them are sent again, and what it has of them may go.
 struct SendBlocksAgain {};
+/// Drops all that can be undone, in memory and on the disk. Of a clay with no changes.
+struct ForgetHistory {};
 struct SaveProject {};
 struct SaveProjectAs {
   std::filesystem::path file;
@@ -167,7 +169,7 @@ using Request =
     std::variant<BeginStroke, ExtendStroke, EndStroke, CancelStroke, DoStep, TrimPiece, GoToStep,
                  SelectPieceAt, AddBallPiece, ImportPiece, DuplicatePiece, StandPiece, NewClay,
                  OpenFile, LookAtMesh, ImportMesh, ForgetQuestion, DropProject, LoadStamp,
-                 LoadAlpha, CheckPath, SendBlocksAgain, SaveProject, SaveProjectAs, EndProject,
-                 ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
+                 LoadAlpha, CheckPath, SendBlocksAgain, ForgetHistory, SaveProject, SaveProjectAs,
+                 EndProject, ExportMesh, CheckPrint, LinkHaptics, UnlinkHaptics>;
 
 }  // namespace argil::viewer

@@ -93,9 +93,13 @@ struct NameOf {
 
 void StepHistory::record(const io::ScriptStep& step, bool is_stamp) {
   if (const auto* move = std::get_if<io::HistoryStep>(&step)) {
-    // Where the list does not reach, the clay does: a step of before it was begun.
-    if (*move == io::HistoryStep::undo && done_ > 0) --done_;
-    if (*move == io::HistoryStep::redo && done_ < steps_.size()) ++done_;
+    const bool is_undo = *move == io::HistoryStep::undo;
+    if (is_undo ? done_ > 0 : done_ < steps_.size()) {
+      is_undo ? --done_ : ++done_;
+    } else {
+      // Where the list does not reach, the clay does: a step of before it was begun.
+      state_here() = ++last_state_;
+    }
     return;
   }
   // Which piece is at hand is no change of the work.
@@ -105,8 +109,10 @@ void StepHistory::record(const io::ScriptStep& step, bool is_stamp) {
   // What was taken back is gone once something else is done.
   steps_.resize(done_);
   names_.resize(done_);
+  states_.resize(done_);
   steps_.push_back(step);
   names_.push_back(name_of_step(step, is_stamp));
+  states_.push_back(++last_state_);
   ++done_;
 }
 
@@ -115,12 +121,14 @@ void StepHistory::keep(std::size_t undo_depth, std::size_t redo_depth) {
   const std::size_t kept = std::min(steps_.size(), done_ + redo_depth);
   // The oldest go first, as in the clay.
   const std::size_t gone = done_ - std::min(done_, undo_depth);
+  if (gone > 0) first_state_ = states_[gone - 1];
   const auto keep_of = [&](auto& list) {
     list.resize(kept);
     list.erase(list.begin(), std::next(list.begin(), static_cast<std::ptrdiff_t>(gone)));
   };
   keep_of(steps_);
   keep_of(names_);
+  keep_of(states_);
   done_ -= gone;
   assert(done_ <= steps_.size() && steps_.size() == names_.size());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,18 @@ class StepHistory {
   const std::vector<std::string>& names() const noexcept { return names_; }     ///< of each
   std::size_t done() const noexcept { return done_; }  ///< of them; the others were taken back
 
+  /// A number for what the work is at this position of the list: the same whenever undo or redo
+  /// comes back to it, and never that of another. 0 only before the first step.
+  std::uint64_t state() const noexcept { return done_ > 0 ? states_[done_ - 1] : first_state_; }
+
  private:
+  std::uint64_t& state_here() noexcept { return done_ > 0 ? states_[done_ - 1] : first_state_; }
+
   std::vector<io::ScriptStep> steps_;
   std::vector<std::string> names_;
+  std::vector<std::uint64_t> states_;  // after each
+  std::uint64_t first_state_ = 0;
+  std::uint64_t last_state_ = 0;  // that was given to one
   std::size_t done_ = 0;
 };
 

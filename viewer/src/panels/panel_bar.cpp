@@ -158,10 +158,10 @@ void draw_figures(const UiState& ui, const FrameState& frame) {
   const std::string piece = has_others ? "   |   " + clay.pieces->active_piece().look.name : "";
   std::snprintf(text, sizeof text,
                 "%s%s%s   |   %s triangles   |   %.3g mm finest voxel   |   dab %.1f ms   |   "
-                "frame %.0f ms   |   undo %d",
+                "frame %.0f ms   |   undo %zu",
                 clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
                 clay.is_changed ? " *" : "", piece.c_str(), grouped(frame.counts.triangles).c_str(),
-                clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, clay.undo_depth);
+                clay.voxel_mm, clay.last_dab_ms, frame.frame_ms, undo_count(clay));
   ImGui::TextUnformatted(text);
   if (!frame.latency_ms) return;
   ImGui::SameLine(0.0F, 0.0F);

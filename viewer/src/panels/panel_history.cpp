@@ -2,6 +2,8 @@
 // What was done to the clay, step by step.
 #include <algorithm>
 #include <cassert>
+#include <cstdio>
+#include <string>
 
 #include <imgui.h>
 
@@ -10,6 +12,33 @@
 #include "panels/panels.h"
 
 namespace argil::viewer {
+namespace {
+
+/// "214 steps, 36 MB".
+std::string words_of_kept(const StepNames& steps) {
+  constexpr double kMegabyte = 1e6;
+  const std::size_t count = steps.names.size();
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu %s, %.3g MB", count, count == 1 ? "step" : "steps",
+                static_cast<double>(steps.kept.bytes) / kMegabyte);
+  return text;
+}
+
+/// How much of it the next window will find, and a way to drop that.
+void draw_kept(const UiState& ui, const StepNames& steps, DocumentThread& document) {
+  const bool may_forget =
+      steps.kept.steps > 0 && !ui.task.is_running && !ui.clay.is_changed && !ui.clay.is_untitled;
+  ImGui::BeginDisabled(!may_forget);
+  if (ImGui::SmallButton("Forget")) document.send(ForgetHistory{});
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+    ImGui::SetTooltip("Drops all steps, also those that the disk keeps.\nSave first.");
+  }
+  ImGui::SameLine();
+  ImGui::TextUnformatted(words_of_kept(steps).c_str());
+}
+
+}  // namespace
 
 void draw_history(UiState& ui, DocumentThread& document) {
   if (!ui.panels.has_history) return;
@@ -28,8 +57,11 @@ void draw_history(UiState& ui, DocumentThread& document) {
   }
   const StepNames& steps = *ui.clay.steps;
   assert(steps.done <= steps.names.size());
+  draw_kept(ui, steps, document);
+  ImGui::BeginChild("steps");
   // A stroke changes the list when it ends.
-  const bool may_go = !ui.task.is_running && !ui.clay.is_stroke_open;
+  const bool may_go = !ui.task.is_running && !ui.clay.is_stroke_open && !steps.has_unread;
+  if (steps.has_unread) ImGui::TextDisabled("older steps are being read");
   for (std::size_t n = 0; n <= steps.names.size(); ++n) {
     // The number makes labels unique: Dear ImGui tells widgets apart by them.
     const std::string label =
@@ -40,12 +72,15 @@ void draw_history(UiState& ui, DocumentThread& document) {
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     if (choice(label.c_str(), is_current) && may_go) document.send(GoToStep{n});
     ImGui::PopStyleColor();
+    // Above it, undo goes on by what the disk keeps.
+    if (steps.older > 0 && n == steps.older) ImGui::Separator();
     // The newest step stays in sight.
     if (is_current && ui.shown_step != n) {
       ImGui::SetScrollHereY();
       ui.shown_step = n;
     }
   }
+  ImGui::EndChild();
   ImGui::End();
 }
 

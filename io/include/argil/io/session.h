@@ -17,11 +17,18 @@
 
 namespace argil::io {
 
+/// What lies beside a project so that steps can be taken back.
+struct HistorySize {
+  std::size_t steps = 0;    ///< of the journal; undo and redo count, too
+  std::uint64_t bytes = 0;  ///< of the journal, the state that it starts from, and solids
+};
+
 /// A project as it stands with the strokes of its journal, if a session left one.
 struct OpenedProject {
   Sculpture sculpture;
   std::int64_t recovered_steps = 0;  ///< steps of the journal that the file does not hold
   std::vector<std::string> notes;    ///< one sentence for each thing a person should know
+  HistorySize history = {};
 };
 
 /// Loads a project for reading: recovers in memory, changes no file, takes no lock.
@@ -37,14 +44,15 @@ struct LeftSteps {
 
 /// Nothing where no steps are left. Reads the project and its journal, repeats nothing and takes no
 /// lock, so it cannot tell whose steps those of a session that goes on are: ask is_in_session
-/// first. Errors  as load_project.
+/// first. Errors  as load_project, where the journal does not say itself that it has none.
 Result<std::optional<LeftSteps>> left_steps(const std::filesystem::path& file);
 
 /// Whether a program is sculpting the project now, this one included.
 bool is_in_session(const std::filesystem::path& file);
 
 /// Renames the journal, so that the next session starts from the project as it was saved; what
-/// became of it comes back as notes, a sentence each.
+/// became of it comes back as notes, a sentence each. Of a history that was kept, those steps alone
+/// go, into a copy.
 /// Errors  bad_input when another program has the project; disk.
 Result<std::vector<std::string>> put_left_steps_aside(const std::filesystem::path& file);
 
@@ -64,6 +72,18 @@ struct SessionOptions {
   std::size_t autosave_leaves = 2000;
 
   std::size_t queue_lines = 64;  ///< steps the disk may be behind
+
+  /// close() leaves what undo needs, so that the next session can take back steps of this one
+  /// (deepen). Where a session before did so, it goes on also without.
+  bool keeps_history = false;
+
+  /// When it has more than so many steps at its end, or journal and solids have more bytes, the
+  /// oldest go: half of it is left, or what memory can take back; at twice as many at the latest.
+  /// A step is repeated in the time it took the first time, without the hand's: 500 strokes are
+  /// some 20 s at the first undo. 500 strokes of 10 s, by a pen that tells 100 samples a second,
+  /// are 50 MB (bench_history).
+  std::size_t history_steps = 500;
+  std::uint64_t history_bytes = std::uint64_t{256} << 20;
 
   /// Until it is saved, a forced end (safe_file.h) takes everything back, as discard() does: for
   /// commands that write all or nothing. Else what was recorded comes back when the project is
@@ -116,6 +136,31 @@ class Session {
   /// Steps the journal holds or will hold, recovered ones included.
   std::size_t step_count() const noexcept;
 
+  /// Whether the journal has steps that sculpture() cannot take back or repeat before deepen():
+  /// those of before it was opened.
+  bool has_older_steps() const noexcept;
+
+  /// Makes sculpture() able to take back and repeat all steps of the journal, as far as
+  /// SessionOptions::limits let it: repeats them on a second clay, and takes over its history once
+  /// its hash is that of this one. Bits, clays and surfaces stay as they are (SessionHistory.*).
+  /// Nothing where there are none, or while a stroke is open.
+  /// Errors  interrupted, memory, disk: nothing was changed, and may be tried again; bad_input: the
+  ///         steps cannot be repeated; has_older_steps() is false then, and close() puts them aside
+  ///         as NAME.journal.jsonl.unread-N.
+  /// Cost    what the steps took, without the hand's time; the memory of a second clay and
+  ///         of its history meanwhile.
+  Result<void> deepen(const Progress& progress = {});
+
+  /// All steps of the journal. Errors  disk: they are not to be had any more; memory.
+  Result<std::vector<ScriptStep>> told_steps();
+
+  /// What is on the disk now. Threads  the clay's.
+  HistorySize history_size() const;
+
+  /// Saves, and forgets every step: undo and redo begin anew.
+  /// Errors  as save; disk: nothing was forgotten.
+  Result<void> forget_history();
+
   /// Keeps a step, as validate_step wants it, that was just applied to sculpture() (apply_step, or
   /// to clay() a live stroke as a whole: what ClayWorkerOptions::on_stroke tells). The mesh or clay
   /// that it works with is kept in a file of its own and must not change meanwhile.
@@ -149,12 +194,14 @@ class Session {
   ///         to a file, a copy of the project as it was before the first step.
   Result<SavedAs> save_as(const std::filesystem::path& file);
 
-  /// Saves what is not saved and removes journal, autosave and lock; the session is over.
+  /// Saves what is not saved and removes journal, autosave and lock, or leaves of these what undo
+  /// needs (SessionOptions::keeps_history); the session is over.
   /// Errors  as save; the session then goes on.
   Result<void> close();
 
   /// Forgets every step since open or create and leaves the files as they were then; the session is
-  /// over. After a save: forgets every step since the last one, and the project stays as saved.
+  /// over. After a save: forgets every step since the last one, and the project stays as saved,
+  /// with its history where that is kept.
   Result<void> discard();
 
  private:
@@ -164,7 +211,8 @@ class Session {
 };
 
 /// Saves `clay` as a project that no session is sculpting, over a file of that name if there is
-/// one. A journal of the old file is renamed and told in the notes that come back.
+/// one. A journal of the old file is renamed, one that was kept for undo alone is removed, and that
+/// is told in the notes that come back.
 /// Errors  bad_input when another program has the project; as save_project.
 Result<std::vector<std::string>> replace_project(const std::filesystem::path& file,
                                                  const Clay& clay);
