@@ -84,6 +84,16 @@ void draw_files(UiState& ui, DocumentThread& document) {
   ImGui::Separator();
 }
 
+/// What the hand does in the mode at hand; empty for what needs no words.
+std::string words_of_drawing(const UiState& ui) {
+  if (ui.outline && ui.outline->form == DragForm::curve) {
+    return words_of(StrokeMode::curve, ui.outline->points.size());
+  }
+  const bool has_device = ui.haptics.device != DeviceChoice::mouse;
+  if (has_device || drag_form_of(ui) != DragForm::brush) return {};
+  return words_of(mode_of(ui.brush), ui.guide ? ui.guide->places_mm.size() : 0);
+}
+
 /// At the right end of the status line: that the force is stopped, or where help is.
 void draw_hint(const UiState& ui, float screen_width) {
   const char* const text = ui.is_force_stopped ? "FORCE STOPPED" : "F1: all keys";
@@ -162,7 +172,12 @@ void draw_status(const UiState& ui, const FrameState& frame) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   const ClayState& clay = ui.clay;
-  if (clay.has_clay) {
+  const std::string words = words_of_drawing(ui);
+  if (clay.has_clay && !words.empty()) {
+    ImGui::Text("%s%s   |   %s",
+                clay.is_untitled ? "not saved yet" : clay.file.filename().string().c_str(),
+                clay.is_changed ? " *" : "", words.c_str());
+  } else if (clay.has_clay) {
     // Triangles are the renderer's: as many as are shown at this distance.
     char text[320];
     const bool has_others = clay.pieces && clay.pieces->pieces.size() > 1;
