@@ -4,8 +4,10 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
+#include "argil/engine/mask_filter.h"
 #include "argil/engine/operation.h"
 #include "argil/io/solid_file.h"
 
@@ -23,7 +25,7 @@ struct NamedOperation {
   std::string name;
   Operation operation;
   std::string file;
-  std::optional<MaskEdit> mask = {};
+  std::optional<std::variant<MaskEdit, MaskFilter>> mask = {};
 };
 
 struct EditOptions {
@@ -84,12 +86,34 @@ void add_combination(const std::string& option, const std::string& file, Combine
   options.operations.push_back({option.substr(2), with, file});
 }
 
-MaskEdit parse_mask_edit(const std::string& text) {
+/// Of "cavity:R[,FACTOR]" with the numbers behind the colon.
+MaskCavity parse_cavity(const std::string& text, bool is_inverted) {
+  const bool has_factor = text.find(',') != std::string::npos;
+  const auto n = parse_numbers("--mask", text, has_factor ? 2 : 1,
+                               has_factor ? "cavity:RADIUS,FACTOR" : "cavity:RADIUS");
+  return {n[0], has_factor ? n[1] : 1.0, is_inverted};
+}
+
+std::variant<MaskEdit, MaskFilter> parse_mask_edit(const std::string& text) {
   if (text == "clear") return MaskEdit::clear;
   if (text == "invert") return MaskEdit::invert;
   if (text == "blur") return MaskEdit::blur;
   if (text == "fill") return MaskEdit::fill;
-  throw CLI::ValidationError("--mask is '" + text + "'; must be clear, invert, blur or fill");
+  if (text == "sharpen") return MaskEdit::sharpen;
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const std::string name = text.substr(0, colon);
+    const std::string numbers = text.substr(colon + 1);
+    if (name == "grow" || name == "shrink") {
+      const double by_mm = parse_number("--mask " + name, numbers, kPositive);
+      return MaskFilter(MaskGrow{name == "grow" ? by_mm : -by_mm});
+    }
+    if (name == "cavity") return MaskFilter(parse_cavity(numbers, false));
+    if (name == "cavity-inverted") return MaskFilter(parse_cavity(numbers, true));
+  }
+  throw CLI::ValidationError("--mask is '" + text +
+                             "'; must be clear, invert, blur, fill, sharpen, grow:MM, shrink:MM, "
+                             "cavity:RADIUS[,FACTOR] or cavity-inverted:RADIUS[,FACTOR]");
 }
 
 void read_operation(const std::string& option, const std::string& text, EditOptions& options) {
@@ -140,7 +164,10 @@ void read_operations(const CLI::App& command, EditOptions& options) {
 Result<OperationReport> apply_one(const NamedOperation& named, Clay& clay,
                                   const Progress& progress) {
   if (named.mask) {
-    if (auto ok = clay.apply(*named.mask); !ok) return ok.error();
+    const auto* filter = std::get_if<MaskFilter>(&*named.mask);
+    auto ok = filter != nullptr ? filter_mask(clay, *filter, progress)
+                                : clay.apply(std::get<MaskEdit>(*named.mask));
+    if (!ok) return ok.error();
     return OperationReport{};
   }
   Operation operation = named.operation;
@@ -244,7 +271,8 @@ void add_edit(CLI::App& app, Selected& selected) {
   add("--at", "X,Y,Z", "after one of these three: where the other's origin goes");
   add("--turn", "W,X,Y,Z", "after one of these three: the quaternion that turns the other");
   add("--voxel-mm", "H", "resample to another finest voxel");
-  add("--mask", "WHAT", "the mask as a whole: clear, invert, blur or fill");
+  add("--mask", "WHAT",
+      "the mask: clear, invert, blur, fill, sharpen, grow:MM, shrink:MM or cavity:RADIUS[,FACTOR]");
   command->parse_complete_callback([command, options] { read_operations(*command, *options); });
 }
 

@@ -64,6 +64,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/haptics/calibration/
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/printers DESTINATION ${CMAKE_INSTALL_DATADIR}/argil
   COMPONENT runtime)
 
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/alphas DESTINATION ${CMAKE_INSTALL_DATADIR}/argil
+  COMPONENT runtime FILES_MATCHING PATTERN "*.png")
+
 # Documents without the data that their charts are drawn from, and the examples that need no source tree.
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${ARGIL_INSTALL_DOCDIR} COMPONENT runtime

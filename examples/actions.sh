@@ -68,6 +68,16 @@ picture mask_invert "$held
 {\"mask\":\"invert\"}
 $swell"
 
+picture mask_grow "$held
+{\"mask\":\"grow\",\"by_mm\":3}"
+picture mask_shrink "$held
+{\"mask\":\"shrink\",\"by_mm\":2}"
+picture mask_sharpen "$held
+{\"mask\":\"sharpen\"}
+{\"mask\":\"sharpen\"}"
+picture mask_cavity '{"mask":"cavity","radius_mm":1}'
+picture mask_ridges '{"mask":"cavity","radius_mm":1,"factor":-1}'
+
 # A four-pointed star, 2 high, as the mesh of a tool: raised on the left, imprinted on the right.
 awk 'BEGIN {
   for (z = -1; z <= 1; z += 2)

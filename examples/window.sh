@@ -45,6 +45,9 @@ picture measure 1180x660 'settle\nkey Shift+U\nframes 3\nmove 500 200\npress lef
 picture search 900x480 'settle\nkey Ctrl+K\ntype mas\nkey Down\nframes 1000'
 # A mask by a lasso, and the line of a trim while it is drawn.
 picture outline 1000x560 'settle\nkey Num1\nkey M\nframes 3\nclick Drawn by\nframes 3\nclick Drawn by/Lasso\nframes 3\nmove 430 180\npress left\nmove 520 150\nmove 600 230\nmove 560 330\nmove 440 300\nframes 2\nrelease left\nsettle\nkey Q\nframes 3\nclick Drawn by\nframes 3\nclick Drawn by/Line\nframes 3\nmove 330 440\npress left\nmove 660 360\nframes 3'
+# A curve while it is clicked together, below the panel with the pen's curve; and the palette of images.
+picture strokes 1280x720 'settle\nkey Num1\nclick Stroke\nframes 3\nclick Method\nframes 3\nclick Method/Dots\nframes 3\npen 0.3\ndrag left 480 300 640 300 40\npen 0.55\ndrag left 480 330 640 330 60\npen 0.7\ndrag left 480 360 640 360 30\nsettle\nclick Soft\nframes 3\npen 1\nclick Method\nframes 3\nclick Method/Curve\nframes 3\nmove 1120 400\nscroll -30\nframes 5\nmove 470 420\npress left\nrelease left\nmove 560 500\npress left\nrelease left\nmove 650 420\npress left\nrelease left\nmove 720 470\nframes 5'
+picture palette 1280x720 "settle\nkey Num1\nclick Emboss\nframes 3\nsettle\nclick medal\nsettle\nclick Image\nframes 3\nclick Image/Dragged\nframes 3\nclick Amplitude\nmove 560 330\npress left\nmove 620 330\nmove 660 360\nrelease left\nsettle\nclick scales\nsettle\nframes 3\nmove 600 600\nframes 5"
 
 # A head on a body: two pieces, of which the head is turned.
 printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":11,"voxel_mm":0.3}}' \

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "argil/engine/clay.h"
+#include "argil/engine/mask_filter.h"
 #include "argil/engine/operation.h"
 #include "argil/engine/surface.h"
 
@@ -43,6 +44,28 @@ void row(Clay& clay, const char* name, const Operation& operation) {
               static_cast<long long>(report.value().changed_leaves), surface,
               1e-6 * static_cast<double>(mesh.positions.size()));
   std::fflush(stdout);
+}
+
+/// Of edits of the mask; no vertex moves.
+void mask_row(Clay& clay, const char* name, const MaskFilter& filter) {
+  const double wall = 1e-3 * bench::wall_ms();
+  const double cpu = 1e-3 * bench::process_cpu_ms();
+  const auto done = filter_mask(clay, filter);
+  const double took_cpu = 1e-3 * bench::process_cpu_ms() - cpu;
+  const double took = 1e-3 * bench::wall_ms() - wall;
+  clay.undo();
+  std::printf("| %s | %.2f | %.2f | | %s | | |\n", name, took_cpu, took,
+              done ? "" : done.error().message.c_str());
+  std::fflush(stdout);
+}
+
+/// A disk of half the radius about the top, with a border of its own softness.
+bool mask_top(Clay& clay, double radius) {
+  Stroke stroke;
+  stroke.tool.action = Action::mask;
+  stroke.tool.radii_mm = {0.5 * radius, 0.5 * radius, 0.5 * radius};
+  stroke.samples = {{0.0, {0.0, 0.0, radius}, {}, 1.0}, {1.0, {0.01, 0.0, radius}, {}, 1.0}};
+  return clay.apply(stroke).ok();
 }
 
 Combine with(CombineKind kind, const std::shared_ptr<const Clay>& other, const Vec3& at) {
@@ -95,5 +118,9 @@ int main(int argc, char** argv) {
   row(clay, "hollow, a wall of 8 voxels", Hollow{8.0 * kVoxelMm, {}});
   row(clay, "hollow with a drain",
       Hollow{8.0 * kVoxelMm, {{-top, {0.0, 0.0, 1.0}, 6.0 * kVoxelMm}}});
+  mask_row(clay, "mask by cavities of 4 voxels", MaskCavity{4.0 * kVoxelMm, 1.0});
+  if (!mask_top(clay, radius)) return 1;
+  mask_row(clay, "mask of a disk grown by 10 voxels", MaskGrow{10.0 * kVoxelMm});
+  mask_row(clay, "mask of a disk grown by 100 voxels", MaskGrow{100.0 * kVoxelMm});
   return 0;
 }

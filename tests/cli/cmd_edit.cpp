@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "argil/io/mesh_file.h"
+#include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
 #include "cli/cli_files.h"
@@ -77,7 +78,40 @@ TEST_F(CliEdit, ChangesTheMask) {
   ASSERT_EQ(cleared.status, 0) << cleared.err;
   EXPECT_EQ(cleared.json()["hash"], start);
   EXPECT_THAT(edit({"--mask", "soften"}).err,
-              HasSubstr("--mask is 'soften'; must be clear, invert, blur or fill"));
+              HasSubstr("--mask is 'soften'; must be clear, invert, blur, fill, sharpen, grow:MM"));
+}
+
+TEST_F(CliEdit, GrowsTheMaskAndMasksCavities) {
+  fill(path("mask.strokes.jsonl"),
+       R"({"argil_strokes":1})"
+       "\n"
+       R"({"tool":"mask","shape":"ball","radius_mm":4,"poses":[[0,10,0,0],[0.1,10,0.01,0]]})"
+       "\n");
+  ASSERT_EQ(run_argil({"sculpt", path("p.vdb"), "--strokes", path("mask.strokes.jsonl"), "-o",
+                       path("p.vdb")})
+                .status,
+            0);
+  const auto held_after = [&](const std::vector<std::string>& masks) {
+    std::vector<std::string> arguments;
+    for (const std::string& mask : masks) arguments.insert(arguments.end(), {"--mask", mask});
+    const Ended run = edit(arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    const auto clay = io::load_project(path("q.vdb"));
+    EXPECT_TRUE(clay.ok());
+    // 5 mm along the ball from where it was painted.
+    return clay.value().mask_at(10.0 * Vec3{std::cos(0.5), std::sin(0.5), 0.0});
+  };
+  EXPECT_LT(held_after({"sharpen"}), 0.01);
+  EXPECT_GT(held_after({"grow:4", "sharpen"}), 0.9);
+  EXPECT_LT(held_after({"grow:4", "shrink:4"}), 0.05);
+  EXPECT_NEAR(held_after({"cavity:1,-1"}), 0.2, 0.05) << "2 / R of a ball";
+  EXPECT_NEAR(held_after({"cavity-inverted:1,-1"}), 0.8, 0.05);
+  EXPECT_EQ(held_after({"cavity:1"}), 0.0);
+  EXPECT_THAT(edit({"--mask", "grow:x"}).err, HasSubstr("--mask grow"));
+  EXPECT_THAT(edit({"--mask", "grow:-1"}).err, HasSubstr("--mask grow"));
+  EXPECT_THAT(edit({"--mask", "cavity:1,2,3"}).err, HasSubstr("cavity:RADIUS,FACTOR"));
+  EXPECT_THAT(edit({"--mask", "cavity:0.001"}).err, HasSubstr("two voxels of the clay"));
+  EXPECT_THAT(edit({"--mask", "melt:3"}).err, HasSubstr("--mask is 'melt:3'"));
 }
 
 /// The same operations as lines of a script, on the project itself: a session.

@@ -154,7 +154,8 @@ inline std::optional<io::ScriptStep> life_step(unsigned seed, int turn) {
       return rod_stroke(random);
     case 7:
       if (random() % 2 == 0) return random_outline(random);
-      return static_cast<MaskEdit>(random() % 4);
+      if (random() % 4 == 0) return MaskFilter(MaskGrow{random() % 2 == 0 ? 0.8 : -0.6});
+      return static_cast<MaskEdit>(random() % 5);
     case 8: {
       Stroke held = random_dab(random, 6.0);
       held.tool.action = Action::mask;

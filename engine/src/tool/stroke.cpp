@@ -204,6 +204,7 @@ DabFeeder::DabFeeder(const Tool& tool, const StrokeStyle& style) noexcept
     : style_(style),
       is_anchored_(is_anchored(tool.action)),
       is_swept_(is_stamped(tool.action) || is_profiled(tool.action)),
+      is_dotted_(style.has_dots && (!is_anchored_ || tool.action == Action::emboss)),
       is_placed_(tool.action == Action::emboss && tool.alpha_mode == AlphaMode::space),
       radius_mm_(smallest_radius(tool)) {
   // Steps this short keep what a dab pushes from folding the matter over.
@@ -224,6 +225,9 @@ std::size_t DabFeeder::images() const noexcept {
 /// An upper bound without making them: the path as the hand gave it, which a string only shortens.
 double DabFeeder::most_dabs(std::span<const StrokeSample> samples) const noexcept {
   if (samples.empty()) return 0.0;
+  if (is_dotted_) {
+    return static_cast<double>(samples.size() * images()) + static_cast<double>(joined_.size());
+  }
   double path_mm = 0.0;
   Vec3 at = last_ ? hand_.position_mm : samples.front().position_mm;
   for (const StrokeSample& sample : samples) {
@@ -253,7 +257,8 @@ DabPose DabFeeder::steadied(const StrokeSample& sample) const {
 }
 
 void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vector<Dab>& dabs) {
-  const Dab dab{last_ ? dropped_ : at, at, false, quarters};
+  // A dot stands alone: nothing sweeps to it from the one before.
+  const Dab dab{last_ && !is_dotted_ ? dropped_ : at, at, false, quarters};
   joined_mm_ += length(dab.at.position_mm - dab.from.position_mm);
   append_images(joined_, dab, style_);
   dropped_ = at;
@@ -264,7 +269,7 @@ void DabFeeder::drop(const DabPose& at, double time_s, double quarters, std::vec
 
 /// Whether what is joined is to be done. The first dab always is.
 bool DabFeeder::is_due(double time_s) const noexcept {
-  return !is_swept_ || !last_ || time_s >= released_s_ + kJoinS ||
+  return !is_swept_ || is_dotted_ || !last_ || time_s >= released_s_ + kJoinS ||
          joined_mm_ >= kMostJoined * radius_mm_ || joined_.size() >= kMostJoinedDabs * images();
 }
 
@@ -281,7 +286,7 @@ void DabFeeder::feed(const StrokeSample& sample, std::vector<Dab>& dabs) {
   assert(is_in_reach(sample.position_mm));
   assert(!last_ || sample.time_s >= last_->time_s);
   const DabPose pose = steadied(sample);
-  if (!last_) {
+  if (!last_ || is_dotted_) {
     drop(pose, sample.time_s, 1.0, dabs);
   } else {
     move(pose, sample.time_s, dabs);
@@ -320,7 +325,7 @@ void DabFeeder::move(const DabPose& to, double time_s, std::vector<Dab>& dabs) {
 
 void DabFeeder::finish(std::vector<Dab>& dabs) {
   if (!last_) return;
-  if (!is_placed_ && !(hand_.position_mm == dropped_.position_mm)) {
+  if (!is_placed_ && !is_dotted_ && !(hand_.position_mm == dropped_.position_mm)) {
     const double rest = 1.0 - until_next_mm_ / step_mm_;
     drop(hand_, last_->time_s, rest * quarters_, dabs);
   }

@@ -33,10 +33,10 @@ inline constexpr auto kAlphaModeNames =
 inline constexpr auto kAxisNames = std::to_array<std::string_view>({"x", "y", "z"});
 inline constexpr auto kHistoryNames = std::to_array<std::string_view>({"undo", "redo"});
 inline constexpr auto kMaskNames =
-    std::to_array<std::string_view>({"clear", "invert", "blur", "fill"});
+    std::to_array<std::string_view>({"clear", "invert", "blur", "fill", "sharpen"});
 static_assert(static_cast<int>(Shape::ball) == 0 && static_cast<int>(Shape::mesh) == 4);
 static_assert(static_cast<int>(AlphaMode::space) == 0 && static_cast<int>(AlphaMode::tiled) == 2);
-static_assert(static_cast<int>(MaskEdit::clear) == 0 && static_cast<int>(MaskEdit::fill) == 3);
+static_assert(static_cast<int>(MaskEdit::clear) == 0 && static_cast<int>(MaskEdit::sharpen) == 4);
 static_assert(static_cast<int>(HistoryStep::undo) == 0 && static_cast<int>(HistoryStep::redo) == 1);
 
 struct ScriptHeader {

@@ -9,6 +9,7 @@
 #include "argil/core/hash_text.h"
 
 #include "format/json_fields.h"
+#include "script/script_filter.h"
 #include "script/script_line.h"
 #include "script/script_operation.h"
 #include "script/script_outline.h"
@@ -176,6 +177,7 @@ Result<void> read_style(const Fields& fields, StrokeStyle& style) {
   if (read) read = read_radial(fields, style.radial);
   if (read) read = fields.number("steady_mm", style.steady_mm);
   if (read) read = fields.number("hold_s", style.hold_s);
+  if (read) read = fields.flag("dots", style.has_dots);
   return read;
 }
 
@@ -280,6 +282,7 @@ Result<Stroke> read_stroke(const FileLine& where, const Json& json, SolidReader&
                                 "spacing",
                                 "steady_mm",
                                 "hold_s",
+                                "dots",
                                 "poses"});
       !known) {
     return known.error();
@@ -406,6 +409,7 @@ Result<ScriptLine> read_script_line(const FileLine& where, std::string_view line
   if (json.contains("history")) return as_line<ScriptStep>(read_history(where, json));
   if (json.contains("operation")) return as_line<ScriptStep>(read_operation(where, json, solids));
   if (json.contains("piece")) return as_line<ScriptStep>(read_piece_edit(where, json, solids));
+  if (is_mask_filter(json)) return as_line<ScriptStep>(read_mask_filter(where, json));
   if (is_mask_outline(json)) return as_line<ScriptStep>(read_mask_outline(where, json));
   if (json.contains("mask")) return as_line<ScriptStep>(read_mask_edit(where, json));
   if (json.contains("after")) return as_line<HashMark>(read_mark(where, json));

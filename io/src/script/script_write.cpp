@@ -6,6 +6,7 @@
 #include "argil/core/hash_text.h"
 
 #include "format/json_fields.h"
+#include "script/script_filter.h"
 #include "script/script_line.h"
 #include "script/script_operation.h"
 #include "script/script_outline.h"
@@ -99,6 +100,7 @@ OrderedJson step_json(const Stroke& stroke, const SolidName& solid) {
   json["spacing"] = stroke.spacing;
   put_unless(json, "steady_mm", stroke.steady_mm, 0.0);
   put_unless(json, "hold_s", stroke.hold_s, 0.0);
+  if (stroke.has_dots) json["dots"] = true;
   json["poses"] = OrderedJson::array();
   for (const StrokeSample& sample : stroke.samples) json["poses"].push_back(pose_json(sample));
   return json;
@@ -114,6 +116,10 @@ OrderedJson step_json(MaskEdit edit, const SolidName&) {
   OrderedJson json;
   json["mask"] = kMaskNames.at(static_cast<std::size_t>(edit));
   return json;
+}
+
+OrderedJson step_json(const MaskFilter& filter, const SolidName&) {
+  return mask_filter_json(filter);
 }
 
 OrderedJson step_json(const MaskOutline& outline, const SolidName&) {

@@ -32,6 +32,7 @@ std::optional<Solid> needed_by(const Stroke& stroke) {
 
 std::optional<Solid> needed_by(HistoryStep) { return std::nullopt; }
 std::optional<Solid> needed_by(MaskEdit) { return std::nullopt; }
+std::optional<Solid> needed_by(const MaskFilter&) { return std::nullopt; }
 std::optional<Solid> needed_by(const MaskOutline&) { return std::nullopt; }
 
 /// Of a combination or a new piece.

@@ -79,6 +79,11 @@ Result<StrokeReport> apply_one(Clay& clay, MaskEdit edit, const Progress&) {
   return StrokeReport{};
 }
 
+Result<StrokeReport> apply_one(Clay& clay, const MaskFilter& filter, const Progress& progress) {
+  if (auto ok = filter_mask(clay, filter, progress); !ok) return ok.error();
+  return StrokeReport{};
+}
+
 Result<StrokeReport> apply_one(Clay& clay, const MaskOutline& outline, const Progress& progress) {
   if (auto ok = mask_within(clay, outline, progress); !ok) return ok.error();
   return StrokeReport{};
@@ -130,6 +135,7 @@ Result<StrokeReport> apply_step(Clay& clay, const ScriptStep& step, const Progre
 Result<void> validate_step(const ScriptStep& step) {
   if (const auto* stroke = std::get_if<Stroke>(&step)) return validate_stroke(*stroke);
   if (const auto* operation = std::get_if<Operation>(&step)) return validate_operation(*operation);
+  if (const auto* filter = std::get_if<MaskFilter>(&step)) return validate_filter(*filter);
   if (const auto* outline = std::get_if<MaskOutline>(&step)) return validate_outline(*outline);
   if (const auto* edit = std::get_if<PieceEdit>(&step)) return validate_piece_edit(*edit);
   return {};

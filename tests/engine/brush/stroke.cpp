@@ -314,5 +314,62 @@ TEST(StrokeStyle, RefusesNumbersOutOfRange) {
   EXPECT_NE(message({.hold_s = 0.001}).find("hold_s is 0.001"), std::string::npos);
 }
 
+// ---- dots --------------------------------------------------------------------------------------
+
+TEST(StrokeDots, AreOneDabForEachSampleWhereverItLies) {
+  Stroke stroke;
+  stroke.has_dots = true;
+  stroke.hold_s = 0.01;
+  stroke.spacing = 0.05;
+  stroke.tool.radii_mm = {2, 2, 2};
+  for (const Action action : {Action::inflate, Action::add, Action::crease}) {
+    stroke.tool.action = action;
+    stroke.samples = {{0.0, {0, 0, 0}, {}, 1.0},
+                      {1.0, {9, 0, 0}, {}, 0.5},
+                      {1.001, {9, 0, 0}, {}, 0.5},
+                      {4.0, {9.1, 0, 0}, {}, 0.25}};
+    const auto dabs = dabs_of(stroke);
+    ASSERT_EQ(dabs.size(), 4U) << static_cast<int>(action);
+    for (std::size_t n = 0; n < dabs.size(); ++n) {
+      EXPECT_EQ(dabs[n].at.position_mm, stroke.samples[n].position_mm);
+      EXPECT_EQ(dabs[n].from.position_mm, dabs[n].at.position_mm) << "nothing sweeps between dots";
+      EXPECT_EQ(dabs[n].at.pressure, stroke.samples[n].pressure);
+      EXPECT_EQ(dabs[n].quarters, 1.0);
+      EXPECT_FALSE(dabs[n].is_joined);
+    }
+    stroke.mirror.x = true;
+    EXPECT_EQ(dabs_of(stroke).size(), 8U);
+    const DabFeeder feeder(stroke.tool, stroke);
+    EXPECT_EQ(feeder.most_dabs(stroke.samples), 8.0);
+    stroke.mirror.x = false;
+  }
+}
+
+TEST(StrokeDots, LeaveTheClayOfThatManyStrokes) {
+  const std::vector<Vec3> places{{10, 0, 0}, {9.5, 3, 0}, {9.4, 3.2, 0}, {8, 6, 0}};
+  Clay dotted = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.4}).value();
+  Stroke stroke;
+  stroke.has_dots = true;
+  stroke.tool.action = Action::add;
+  stroke.tool.radii_mm = {1.5, 1.5, 1.5};
+  for (const Vec3& place : places) stroke.samples.push_back({0.0, place, {}, 1.0});
+  ASSERT_TRUE(dotted.apply(stroke).ok());
+  EXPECT_EQ(dotted.undo_depth(), 1);
+  Clay single = Clay::ball(10.0, ClayOptions{.voxel_mm = 0.4}).value();
+  for (const StrokeSample& sample : stroke.samples) {
+    Stroke one = stroke;
+    one.has_dots = false;
+    one.samples = {sample};
+    ASSERT_TRUE(single.apply(one).ok());
+  }
+  for (double x = 6.0; x < 12.0; x += 0.37) {
+    for (double y = -2.0; y < 9.0; y += 0.41) {
+      const double wanted = single.distance_at({x, y, 0.1});
+      if (std::abs(wanted) > 0.4) continue;
+      EXPECT_NEAR(dotted.distance_at({x, y, 0.1}), wanted, 0.08) << x << " " << y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace argil

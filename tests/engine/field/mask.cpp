@@ -503,7 +503,8 @@ TEST(MaskEditOf, IsRefusedWhileAStrokeIsOpenAndForANumberThatIsNone) {
   const std::uint64_t start = clay.hash();
   const auto unknown = clay.apply(static_cast<MaskEdit>(7));
   ASSERT_FALSE(unknown.ok());
-  EXPECT_THAT(unknown.error().message, HasSubstr("7; must be clear, invert, blur or fill"));
+  EXPECT_THAT(unknown.error().message,
+              HasSubstr("7; must be clear, invert, blur, fill or sharpen"));
   ASSERT_TRUE(clay.begin_stroke(Tool{}).ok());
   EXPECT_FALSE(clay.apply(MaskEdit::fill).ok());
   ASSERT_TRUE(clay.cancel_stroke());

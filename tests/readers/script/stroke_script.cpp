@@ -198,7 +198,8 @@ TEST(StrokeScript, ReadsAStartBallAndFillsInDefaults) {
 TEST(StrokeScript, HoldsEditsOfTheMask) {
   const ScriptFile file("");
   StrokeScript script;
-  for (const MaskEdit edit : {MaskEdit::clear, MaskEdit::invert, MaskEdit::blur, MaskEdit::fill}) {
+  for (const MaskEdit edit :
+       {MaskEdit::clear, MaskEdit::invert, MaskEdit::blur, MaskEdit::fill, MaskEdit::sharpen}) {
     script.steps.emplace_back(edit);
   }
   ASSERT_TRUE(test::write_stroke_script(file.path(), script));
@@ -208,8 +209,9 @@ TEST(StrokeScript, HoldsEditsOfTheMask) {
   for (std::size_t i = 0; i < script.steps.size(); ++i) {
     EXPECT_EQ(std::get<MaskEdit>(read.value().steps[i]), std::get<MaskEdit>(script.steps[i]));
   }
-  EXPECT_EQ(error_of_stroke(R"({"mask":"fade"})"),
-            "3: key 'mask' is \"fade\"; must be one of 'clear', 'invert', 'blur', 'fill'");
+  EXPECT_EQ(
+      error_of_stroke(R"({"mask":"fade"})"),
+      "3: key 'mask' is \"fade\"; must be one of 'clear', 'invert', 'blur', 'fill', 'sharpen'");
 }
 
 TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {

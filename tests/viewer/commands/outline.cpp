@@ -358,5 +358,91 @@ TEST(OutlineSteps, OfATurnedPieceAreInItsFrame) {
   EXPECT_LT(length(turned(piece, right) - lens.right), 1e-9);
 }
 
+// ---- a curve -----------------------------------------------------------------------------------
+
+bool is_in_loop(const std::vector<Camera::Pixel>& loop, double x, double y) {
+  bool is_inside = false;
+  for (std::size_t n = 0; n < loop.size(); ++n) {
+    const Camera::Pixel& a = loop[n];
+    const Camera::Pixel& b = loop[(n + 1) % loop.size()];
+    if ((a.y > y) == (b.y > y)) continue;
+    if (a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) > x) is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
+TEST(OutlineCurve, TakesAllOfTheWindowToItsRight) {
+  OutlineDrag drag;
+  drag.form = DragForm::curve;
+  drag.is_trim = true;
+  drag.part.camera.resize(400, 300);
+  // Upward in the middle: right is right.
+  drag.points = {{200, 250}, {200, 150}, {200, 50}};
+  const auto up = outline_of(drag);
+  for (double y = 1.0; y < 300.0; y += 17.0) {
+    for (double x = 3.0; x < 400.0; x += 13.0) {
+      EXPECT_EQ(is_in_loop(up, x, y), x > 200.0) << x << " " << y;
+    }
+  }
+  // Downward: right is left.
+  drag.points = {{200, 50}, {200, 150}, {200, 250}};
+  const auto down = outline_of(drag);
+  EXPECT_TRUE(is_in_loop(down, 5.0, 5.0));
+  EXPECT_FALSE(is_in_loop(down, 395.0, 295.0));
+  // A valley that opens upward, from left to right: all below is taken, and nothing in it.
+  drag.points = {{100, 40}, {130, 180}, {200, 220}, {270, 180}, {300, 40}};
+  const auto valley = outline_of(drag);
+  EXPECT_FALSE(is_in_loop(valley, 200.0, 100.0));
+  EXPECT_TRUE(is_in_loop(valley, 200.0, 280.0));
+  EXPECT_TRUE(is_in_loop(valley, 20.0, 150.0));
+  EXPECT_TRUE(is_in_loop(valley, 380.0, 150.0));
+  EXPECT_EQ(simple_loops(valley).size(), 1U);
+  for (const Camera::Pixel& point : drag.points) {
+    EXPECT_TRUE(std::any_of(valley.begin(), valley.end(), [&](const Camera::Pixel& p) {
+      return std::hypot(p.x - point.x, p.y - point.y) < 1e-9;
+    })) << "through each point";
+  }
+}
+
+TEST_F(OutlineGestures, ACurveTrimsWithEnterAndIsGivenUpWithEscape) {
+  ui_.brush.action = Action::trim;
+  ui_.outlines.trim = DragForm::curve;
+  const auto click = [&](const Camera::Pixel& at) {
+    mouse_at(InputEvent::Kind::press, at);
+    mouse_at(InputEvent::Kind::move, {at.x + 1.0, at.y});
+    mouse_at(InputEvent::Kind::release, at);
+  };
+  const Lens lens = ui_.camera.lens({});
+  for (const Camera::Pixel& at : {Camera::Pixel{5, 40}, Camera::Pixel{32, 25},
+                                  Camera::Pixel{58, 40}, Camera::Pixel{60, 60}}) {
+    click(at);
+  }
+  ASSERT_TRUE(ui_.outline);
+  EXPECT_EQ(ui_.outline->points.size(), 4U);
+  key(kKeyBackspace);
+  EXPECT_EQ(ui_.outline->points.size(), 3U);
+  mouse_at(InputEvent::Kind::press, {30, 30});
+  key('X');
+  EXPECT_FALSE(ui_.brush.mirror.x) << "nothing else is heard";
+  EXPECT_EQ(ui_.camera.lens({}), lens);
+  key(kKeyEscape);
+  EXPECT_FALSE(ui_.outline);
+  settle();
+  EXPECT_TRUE(steps().empty());
+  for (const Camera::Pixel& at :
+       {Camera::Pixel{5, 40}, Camera::Pixel{32, 25}, Camera::Pixel{58, 40}}) {
+    click(at);
+  }
+  key(kKeyEnter);
+  EXPECT_FALSE(ui_.outline);
+  settle();
+  EXPECT_EQ(steps().size(), 1U);
+  // Another tool forgets the points.
+  click({5, 40});
+  ui_.brush.action = Action::inflate;
+  gestures_.tick(1.0);
+  EXPECT_FALSE(ui_.outline);
+}
+
 }  // namespace
 }  // namespace argil::viewer

@@ -14,11 +14,9 @@ TEST(Settings, AreReadAsTheyWereWritten) {
   const test::ScratchFolder folder;
   const auto home = folder / "not there yet";
   EXPECT_EQ(read_settings(home), Settings());
-  const Settings chosen{true,
-                        "my printer 2",
-                        "/a folder/nvent firmware.bin",
-                        {"Untitled-1 12", "Untitled-2 34"},
-                        150};
+  const Settings chosen{
+      true, "my printer 2", "/a folder/nvent firmware.bin", {"Untitled-1 12", "Untitled-2 34"},
+      150,  kFirmPressure};
   ASSERT_TRUE(write_changes(home, {}, chosen).ok());
   EXPECT_EQ(read_settings(home), chosen);
   ASSERT_TRUE(write_changes(home, chosen, {}).ok());
@@ -27,12 +25,12 @@ TEST(Settings, AreReadAsTheyWereWritten) {
 
 TEST(Settings, AWindowWritesOnlyWhatWasChangedInIt) {
   const test::ScratchFolder folder;
-  const Settings start{false, "resin", "/old.bin"};
+  const Settings start{false, "resin", "/old.bin", {}, 100, {}};
   ASSERT_TRUE(write_changes(folder.path(), {}, start).ok());
-  ASSERT_TRUE(write_changes(folder.path(), start, {true, "resin", "/old.bin"}).ok());
-  ASSERT_TRUE(write_changes(folder.path(), start, {false, "", "/old.bin"}).ok());
-  ASSERT_TRUE(write_changes(folder.path(), start, {false, "resin", "/new.bin"}).ok());
-  EXPECT_EQ(read_settings(folder.path()), (Settings{true, "", "/new.bin"}));
+  ASSERT_TRUE(write_changes(folder.path(), start, {true, "resin", "/old.bin", {}, 100, {}}).ok());
+  ASSERT_TRUE(write_changes(folder.path(), start, {false, "", "/old.bin", {}, 100, {}}).ok());
+  ASSERT_TRUE(write_changes(folder.path(), start, {false, "resin", "/new.bin", {}, 100, {}}).ok());
+  EXPECT_EQ(read_settings(folder.path()), (Settings{true, "", "/new.bin", {}, 100, {}}));
 }
 
 TEST(RecentFiles, AreThoseOfAllWindowsNewestFirst) {
@@ -55,7 +53,7 @@ TEST(RecentFiles, AreThoseOfAllWindowsNewestFirst) {
 TEST(Settings, ANameWithoutAValueTakesNoneOfTheNextLine) {
   const test::ScratchFolder folder;
   test::fill(folder / "settings.txt", "printer\nfalcon_firmware \nnumber_views 1\n");
-  EXPECT_EQ(read_settings(folder.path()), (Settings{true, "", ""}));
+  EXPECT_EQ(read_settings(folder.path()), (Settings{true, "", "", {}, 100, {}}));
 }
 
 TEST(Settings, ASizeOfPanelsThatNobodyCanChooseIsBroughtIntoRange) {

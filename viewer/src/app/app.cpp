@@ -248,6 +248,7 @@ Result<void> App::frame() {
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
   draw_panels();
+  read_wanted_alphas();
   const bool has_new_panels = gui_.end_frame();
   // What fades or was laid out anew goes on.
   frames_to_settle_ = std::max(frames_to_settle_ - 1, has_new_panels ? 1 : 0);
@@ -342,8 +343,7 @@ void App::take_events(const std::vector<InputEvent>& events) {
     if (event.kind == InputEvent::Kind::close) {
       perform(Command::quit, ui_, document_);
     } else if (event.kind == InputEvent::Kind::drop) {
-      const bool is_asked = open_dialog(ui_) != Dialog::none;
-      if (!is_asked && !event.files.empty()) open_file(event.files.front(), ui_, document_);
+      take_dropped(event.files);
     } else {
       const bool is_key = event.kind == InputEvent::Kind::key_down ||
                           event.kind == InputEvent::Kind::key_up ||
@@ -351,6 +351,32 @@ void App::take_events(const std::vector<InputEvent>& events) {
       if (!is_key) ui_.is_pointer_over_clay_view = !is_taken;
       gestures_.on(event, is_taken && !gestures_.is_stroke_open());
     }
+  }
+}
+
+/// An image joins those that one may emboss with, and is taken for the next stroke; anything else
+/// is opened.
+void App::take_dropped(const std::vector<std::string>& files) {
+  if (open_dialog(ui_) != Dialog::none || files.empty()) return;
+  const fs::path file = files.front();
+  if (extension_of(file) != ".png") return open_file(file, ui_, document_);
+  const auto added = add_alpha(home_, file);
+  if (!added) return tell(notice_of(added.error()));
+  ui_.brush.action = Action::emboss;
+  ui_.brush.is_stamp = false;
+  ui_.alphas.clear();
+  ui_.wants_alphas = true;
+  document_.send(LoadAlpha{added.value()});
+}
+
+/// Once: a palette that is not looked at costs nothing.
+void App::read_wanted_alphas() {
+  if (!std::exchange(ui_.wants_alphas, false) || !ui_.alphas.empty()) return;
+  AlphaList list = read_alphas(home_);
+  ui_.alphas = std::move(list.alphas);
+  if (std::exchange(has_told_alphas_, true)) return;
+  for (const Error& problem : list.problems) {
+    ui_.notices.push_back({Notice::Kind::warning, problem.message});
   }
 }
 
@@ -618,6 +644,7 @@ void App::draw_panels() {
   // In this order they lie over each other; dialogs come after the panels, messages last.
   draw_outline(ui_);
   draw_measure_marks(ui_);
+  draw_guide(ui_);
   draw_menu(ui_, document_);
   draw_tools(ui_);
   draw_brush(ui_, document_);

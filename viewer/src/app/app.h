@@ -83,6 +83,8 @@ class App {
   bool has_ended();
   void drop_untouched();
   void note_recent();
+  void read_wanted_alphas();
+  void take_dropped(const std::vector<std::string>& files);
   void start_empty();
   void keep_settings();
   void note_measurements();
@@ -131,8 +133,10 @@ class App {
   std::optional<PieceKey> active_piece_;  ///< of the last frame
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with
-  std::filesystem::path last_file_;       ///< that the title names
-  std::vector<double> shown_inputs_s_;    ///< of inputs whose dabs this frame shows first
+  std::filesystem::path last_file_;
+  bool has_told_alphas_ =
+      false;  ///< of files there that are no images       ///< that the title names
+  std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;
   std::vector<double> latency_ms_;
   ViewReport report_;

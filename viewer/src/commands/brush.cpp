@@ -56,6 +56,16 @@ Shape shape_of(const Brush& brush) noexcept {
   return brush.shape;
 }
 
+bool takes_modes(const Brush& brush) noexcept {
+  const bool needs_a_way = brush.action == Action::twist || brush.action == Action::slide;
+  return !brush.is_stamp && !info_of(brush.action).is_dragged && !needs_a_way;
+}
+
+StrokeMode mode_of(const Brush& brush) noexcept {
+  if (!takes_modes(brush)) return StrokeMode::space;
+  return brush.action == Action::emboss ? brush.emboss_mode : brush.stroke_mode;
+}
+
 Vec3 radii_of(const Brush& brush, double radius_mm) noexcept {
   assert(radius_mm > 0.0);
   const double height = std::clamp(brush.height, kLeastHeight, kMostHeight);
@@ -78,6 +88,7 @@ Brush brush_with(const Brush& brush, const Modifiers& modifiers) noexcept {
     held.action = Action::smooth;
     held.is_stamp = false;
     held.is_inverted = false;
+    held.stroke_mode = StrokeMode::space;
   } else if (modifiers.ctrl) {
     held.is_inverted = !held.is_inverted;
   }
@@ -113,7 +124,8 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
   tool.wavelength_mm = std::min(brush.wavelength * radius_mm, kMostRadiusMm);
   tool.seed = static_cast<std::uint32_t>(brush.seed);
   if (tool.action == Action::emboss) tool.alpha = brush.alpha;
-  tool.alpha_mode = brush.alpha_mode;
+  const bool is_anchored_image = mode_of(brush) == StrokeMode::anchored;
+  tool.alpha_mode = is_anchored_image ? AlphaMode::anchored : brush.alpha_mode;
   tool.amplitude_mm = std::min(brush.amplitude * radius_mm, kMostRadiusMm);
   tool.mid_level = brush.mid_level;
   tool.angle_deg = brush.angle_deg;
@@ -123,7 +135,8 @@ Tool tool_of(const Brush& brush, double radius_mm) noexcept {
 }
 
 StrokeStyle style_of(const Brush& brush) noexcept {
-  return {brush.spacing, brush.mirror, brush.radial, brush.steady_mm, brush.hold_s};
+  return {brush.spacing,   brush.mirror, brush.radial,
+          brush.steady_mm, brush.hold_s, mode_of(brush) == StrokeMode::dots};
 }
 
 std::vector<SurfaceHit> images_of(const SurfaceHit& hit, const Brush& brush) {
@@ -157,6 +170,14 @@ StrokeSample sample_at(const Brush& brush, double radius_mm, const SurfaceHit& h
   }
   return {time_s, hit.point_mm + above * hit.normal,
           product(turn_to(hit.normal), about_z(brush.turn_deg)), pressure};
+}
+
+StrokeSample anchored_sample(const Brush& brush, double radius_mm, const SurfaceHit& hit,
+                             const Vec3& way, double pressure) noexcept {
+  const Vec3 local = rotate(conjugate(turn_to(hit.normal)), way);
+  Brush turned = brush;
+  turned.turn_deg += std::atan2(local.y, local.x) * 180.0 / std::numbers::pi;
+  return sample_at(turned, radius_mm, hit, 0.0, pressure);
 }
 
 }  // namespace argil::viewer

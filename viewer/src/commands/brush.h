@@ -10,6 +10,7 @@
 #include "argil/engine/tool.h"
 #include "argil/engine/tool_mesh.h"
 
+#include "commands/stroke_mode.h"
 #include "document/tool_info.h"
 #include "input/input_event.h"
 #include "picture/surface_probe.h"
@@ -45,7 +46,7 @@ struct Brush {
   int seed = 0;
   // Of emboss, as Tool has them; lengths in radii.
   std::shared_ptr<const AlphaImage> alpha = nullptr;
-  AlphaMode alpha_mode = AlphaMode::space;
+  AlphaMode alpha_mode = AlphaMode::space;  ///< or tiled; StrokeMode::anchored is the third
   double amplitude = 0.25;
   double mid_level = 0.0;
   double angle_deg = 0.0;
@@ -54,6 +55,8 @@ struct Brush {
   double spacing = 0.25;
   double steady_mm = 0.0;
   double hold_s = 0.0;
+  StrokeMode stroke_mode = StrokeMode::space;  ///< of all but emboss
+  StrokeMode emboss_mode = StrokeMode::space;  ///< of emboss
   Mirror mirror;
   Radial radial;
 };
@@ -75,6 +78,18 @@ inline bool is_chosen(const Brush& brush, const ToolInfo& tool) noexcept {
 /// The shape that a brush works with: only what adds or carves has edges.
 Shape shape_of(const Brush& brush) noexcept;
 
+/// The mode as it was chosen: emboss has its own.
+inline StrokeMode& chosen_mode(Brush& brush) noexcept {
+  return brush.action == Action::emboss ? brush.emboss_mode : brush.stroke_mode;
+}
+
+/// Whether the tool takes other modes than space: not a stamp, which is one dab anyway, nor what
+/// drags matter along.
+bool takes_modes(const Brush& brush) noexcept;
+
+/// The mode that a stroke has: the chosen one where the tool takes it.
+StrokeMode mode_of(const Brush& brush) noexcept;
+
 /// Half extents of the tool.
 Vec3 radii_of(const Brush& brush, double radius_mm) noexcept;
 
@@ -94,5 +109,10 @@ std::vector<SurfaceHit> images_of(const SurfaceHit& hit, const Brush& brush);
 /// or carves stands out by the strength times its height, all else works about the surface itself.
 StrokeSample sample_at(const Brush& brush, double radius_mm, const SurfaceHit& hit, double time_s,
                        double pressure) noexcept;
+
+/// The sample of an anchored dab: the tool's x axis points along `way`, as far as that lies in the
+/// surface.
+StrokeSample anchored_sample(const Brush& brush, double radius_mm, const SurfaceHit& hit,
+                             const Vec3& way, double pressure) noexcept;
 
 }  // namespace argil::viewer

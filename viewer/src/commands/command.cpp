@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <system_error>
+#include <utility>
 
 #include "base/text.h"
 #include "commands/measure.h"
@@ -43,6 +44,10 @@ constexpr CommandInfo kCommands[] = {
     {Command::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
     {Command::mask_clear, "Mask", "Clear", "Alt+M"},
     {Command::mask_blur, "Mask", "Blur", "Alt+B"},
+    {Command::mask_sharpen, "Mask", "Sharpen", "Alt+S"},
+    {Command::mask_grow, "Mask", "Grow", "Alt+G"},
+    {Command::mask_shrink, "Mask", "Shrink", "Shift+Alt+G"},
+    {Command::mask_cavity, "Mask", "By cavity", "Alt+C"},
     {Command::mask_fill, "Mask", "Fill", "Alt+F"},
     {Command::symmetry_x, "Brush", "Symmetry X", "X"},
     {Command::symmetry_y, "Brush", "Symmetry Y", "Y"},
@@ -101,8 +106,43 @@ void look(UiState& ui, const Vec3& toward, const Vec3& up = {0.0, 0.0, 1.0}) {
   ui.camera.look_from(toward, up);
 }
 
-void edit_mask(MaskEdit edit, const UiState& ui, DocumentThread& document) {
-  document.send(DoStep{edit, active_key(ui.clay)});
+void edit_mask(io::ScriptStep edit, const UiState& ui, DocumentThread& document) {
+  document.send(DoStep{std::move(edit), active_key(ui.clay)});
+}
+
+/// What is done to the mask.
+bool perform_on_mask(Command command, const UiState& ui, DocumentThread& document) {
+  const MaskChoice numbers = mask_numbers(ui);
+  switch (command) {
+    case Command::mask_invert:
+      edit_mask(MaskEdit::invert, ui, document);
+      return true;
+    case Command::mask_clear:
+      edit_mask(MaskEdit::clear, ui, document);
+      return true;
+    case Command::mask_blur:
+      edit_mask(MaskEdit::blur, ui, document);
+      return true;
+    case Command::mask_sharpen:
+      edit_mask(MaskEdit::sharpen, ui, document);
+      return true;
+    case Command::mask_fill:
+      edit_mask(MaskEdit::fill, ui, document);
+      return true;
+    case Command::mask_grow:
+      edit_mask(MaskFilter(MaskGrow{numbers.by_mm}), ui, document);
+      return true;
+    case Command::mask_shrink:
+      edit_mask(MaskFilter(MaskGrow{-numbers.by_mm}), ui, document);
+      return true;
+    case Command::mask_cavity:
+      edit_mask(MaskFilter(MaskCavity{numbers.cavity_mm, numbers.cavity_factor,
+                                      numbers.is_cavity_inverted}),
+                ui, document);
+      return true;
+    default:
+      return false;
+  }
 }
 
 /// A project without a name is asked for one first.
@@ -390,11 +430,15 @@ bool is_possible(Command command, const UiState& ui) noexcept {
     case Command::measure_distance:
     case Command::measure_angle:
     case Command::measure_thickness:
+    case Command::mask_cavity:
       return ui.clay.has_clay;
     case Command::measure_clear:
       return !ui.measures.list.empty() || !ui.measures.begun.empty();
     case Command::mask_clear:
     case Command::mask_blur:
+    case Command::mask_grow:
+    case Command::mask_shrink:
+    case Command::mask_sharpen:
       return ui.clay.has_mask;
     case Command::give_force:
       return ui.is_force_stopped;
@@ -410,7 +454,7 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
   if (!is_possible(command, ui) && command != Command::redo) return;
   if (perform_on_view(command, ui) || perform_on_brush(command, ui)) return;
   if (perform_on_measures(command, ui)) return;
-  if (perform_on_piece(command, ui, document)) return;
+  if (perform_on_piece(command, ui, document) || perform_on_mask(command, ui, document)) return;
   switch (command) {
     case Command::new_clay:
       ui.panels.is_new_open = true;
@@ -442,18 +486,6 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
     case Command::operations:
       ui.panels.is_operations_open = true;
       ui.operation.voxel_mm = ui.clay.voxel_mm;  // what it is now, to be made finer or coarser
-      break;
-    case Command::mask_invert:
-      edit_mask(MaskEdit::invert, ui, document);
-      break;
-    case Command::mask_clear:
-      edit_mask(MaskEdit::clear, ui, document);
-      break;
-    case Command::mask_blur:
-      edit_mask(MaskEdit::blur, ui, document);
-      break;
-    case Command::mask_fill:
-      edit_mask(MaskEdit::fill, ui, document);
       break;
     case Command::screenshot:
       ui.wants_screenshot = true;

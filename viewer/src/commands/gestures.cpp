@@ -38,7 +38,9 @@ Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
 
 }  // namespace
 
-void Gestures::on(const InputEvent& event, bool is_taken) {
+void Gestures::on(const InputEvent& told, bool is_taken) {
+  InputEvent event = told;
+  event.pressure = shaped_pressure(ui_.settings.pressure, told.pressure);
   const bool is_asked = open_dialog(ui_) != Dialog::none;
   if (is_asked) ui_.search.is_open = false;
   if (!is_taken && search_takes(event, ui_, document_)) return;
@@ -48,6 +50,7 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       if ((!is_taken && !is_asked) || ui_.brush_drag) press(event);
       break;
     case InputEvent::Kind::move:
+      if (stroke_) note_pressure(told.pressure);
       move(event);
       break;
     case InputEvent::Kind::release:
@@ -55,7 +58,7 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
       break;
     case InputEvent::Kind::scroll:
       // A handle that is held stays where the camera saw it, and so does an outline.
-      if (!is_taken && !is_asked && drag_ != Drag::piece && drag_ != Drag::outline) {
+      if (!is_taken && !is_asked && drag_ != Drag::piece && !ui_.outline && drag_ != Drag::line) {
         ui_.camera.zoom(std::pow(kZoomStep, event.steps),
                         between_eyes(ui_.camera, ui_.show.is_stereo, pixel_of(event)));
       }
@@ -74,6 +77,13 @@ void Gestures::on(const InputEvent& event, bool is_taken) {
   }
 }
 
+/// For the picture of the curve.
+void Gestures::note_pressure(double pressure) {
+  std::vector<float>& all = ui_.pressures;
+  if (all.size() >= kMostPressures) all.erase(all.begin());
+  all.push_back(static_cast<float>(pressure));
+}
+
 // ---- keys --------------------------------------------------------------------------------------
 
 void Gestures::key(const InputEvent& event, bool is_asked) {
@@ -85,7 +95,14 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
   if (is_asked) return;
   // A stroke is ended by the hand: a key that would change the clay meanwhile was hit by mistake.
   if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
-  if (drag_ == Drag::measure) return;
+  if (drag_ == Drag::line || drag_ == Drag::measure) return;
+  if (ui_.outline) return key_of_curve(event);
+  if (ui_.guide && (event.key == kKeyEnter || event.key == kKeyPadEnter)) return apply_curve(event);
+  if (ui_.guide && event.key == kKeyBackspace) {
+    ui_.guide->places_mm.pop_back();
+    if (ui_.guide->places_mm.empty()) ui_.guide.reset();
+    return;
+  }
   // Whoever measures, or has chosen one in the list, means a measurement, and not the piece that
   // Delete removes else.
   const bool is_measuring = ui_.measures.tool || ui_.measures.chosen;
@@ -107,8 +124,8 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
 
 /// Ends one thing: what is being done, else a dialog, else the tool that measures.
 void Gestures::escape() {
-  const bool ends = pieces_.cancel() || measures_.cancel() || leave_outline() || ui_.brush_drag ||
-                    drag_ == Drag::stroke || ui_.places_drain || ui_.draws_path ||
+  const bool ends = pieces_.cancel() || measures_.cancel() || leave_outline() || leave_guide() ||
+                    ui_.brush_drag || drag_ == Drag::stroke || ui_.places_drain || ui_.draws_path ||
                     ui_.turntable_left > 0;
   ui_.places_drain = false;
   leave_path();
@@ -116,8 +133,10 @@ void Gestures::escape() {
   if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
   ui_.brush_drag.reset();
   if (drag_ == Drag::stroke) {
+    // A dab that was never laid is no stroke: the one before would be taken back.
+    const bool is_begun = !has_one_dab(*stroke_) || stroke_->is_laid;
     stroke_.reset();
-    document_.send(CancelStroke{});
+    if (is_begun) document_.send(CancelStroke{});
   }
   if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::measure) drag_ = Drag::none;
   if (ends || std::exchange(ui_.asks_to_drop, false)) return;
@@ -151,6 +170,11 @@ void Gestures::press(const InputEvent& event) {
 /// What a press begins.
 Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   const Modifiers& held = event.modifiers;
+  // Between two clicks of a trim's curve: it lies over the picture as the first one found it.
+  if (ui_.outline) {
+    if (event.button == MouseButton::left) ui_.outline->points.push_back(pixel_of(event));
+    return Drag::none;
+  }
   // As in Blender; Alt stands in for the right button on trackpads and pens.
   if (event.button == MouseButton::middle || (held.alt && held.shift) ||
       (event.button == MouseButton::right && held.shift)) {
@@ -161,13 +185,19 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   if (ui_.measures.tool) return measure(event);
   ui_.measures.chosen.reset();  // back to the clay
   if (ui_.is_hand_led) return Drag::hand;
-  if (begin_outline(event)) return Drag::outline;
+  if (begin_outline(event)) {
+    return ui_.outline->form == DragForm::curve ? Drag::none : Drag::outline;
+  }
   switch (begin_stroke(event)) {
     case Met::stroke:
       return Drag::stroke;
     case Met::other_piece:
       // Neither a stroke, which would surprise, nor a turn of the view.
       pieces_.press_on_other(event);
+      return Drag::none;
+    case Met::line:
+      return Drag::line;
+    case Met::point:
       return Drag::none;
     case Met::nothing:
       break;
@@ -265,6 +295,15 @@ void Gestures::end_outline() {
   ui_.outline.reset();
 }
 
+/// Of a curve that is being clicked together: nothing else is heard meanwhile.
+void Gestures::key_of_curve(const InputEvent& event) {
+  assert(ui_.outline && ui_.outline->form == DragForm::curve);
+  if (event.key == kKeyEnter || event.key == kKeyPadEnter) return end_outline();
+  if (event.key != kKeyBackspace) return;
+  ui_.outline->points.pop_back();
+  if (ui_.outline->points.empty()) ui_.outline.reset();
+}
+
 /// True where one was being drawn.
 bool Gestures::leave_outline() {
   if (drag_ == Drag::outline) drag_ = Drag::none;
@@ -283,6 +322,11 @@ void Gestures::move(const InputEvent& event) {
   if (drag_ == Drag::piece || drag_ == Drag::none) pieces_.move(event);
   if (drag_ == Drag::measure || drag_ == Drag::none) measures_.move(event);
   if (drag_ == Drag::outline) extend(*ui_.outline, pixel_of(event));
+  if (drag_ == Drag::line) {
+    std::vector<Camera::Pixel>& ends = ui_.guide->ends;
+    ends.resize(2);
+    ends[1] = line_end(ends[0], pixel_of(event), event.modifiers.alt);
+  }
 }
 
 void Gestures::release(const InputEvent& event) {
@@ -292,6 +336,10 @@ void Gestures::release(const InputEvent& event) {
   if (drag_ == Drag::piece) pieces_.release();
   if (drag_ == Drag::outline) end_outline();
   if (drag_ == Drag::measure) measures_.release(event);
+  if (drag_ == Drag::line) {
+    const StrokeGuide guide = *std::exchange(ui_.guide, std::nullopt);
+    if (guide.ends.size() == 2) lay_along(guide.ends, event);
+  }
   drag_ = Drag::none;
 }
 
@@ -311,7 +359,8 @@ void Gestures::drag_brush(const InputEvent& event) {
 
 /// The piece follows the hand. A stroke reads the picture that it began in.
 void Gestures::puck(const InputEvent& event) {
-  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::outline) return;
+  if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::line) return;
+  if (ui_.outline) return;
   Camera& camera = ui_.camera;
   const double pixels = kPuckWidths * camera.width() * event.puck_s;
   camera.pan(pixels * event.puck_shift.x, -pixels * event.puck_shift.y);
@@ -328,13 +377,20 @@ Gestures::Met Gestures::begin_stroke(const InputEvent& event) {
   SurfaceProbe probe = probe_(pixel_of(event));
   if (probe.is_other_at(pixel_of(event))) return Met::other_piece;
   const Brush brush = brush_with(ui_.brush, event.modifiers);
+  if (mode_of(brush) == StrokeMode::line || mode_of(brush) == StrokeMode::curve) {
+    if (!lays_guide_) return begin_guide(event, probe, brush);
+  }
   // Twice: how large the brush is on the screen depends on how far away the surface is.
   const auto first = probe.at(pixel_of(event), 0.0);
   if (!first) return Met::nothing;
   const double radius = radius_on(brush, ui_.camera.pixel_mm_at(first->point_mm));
   const auto hit = probe.at(pixel_of(event), radius);
-  stroke_.emplace(OpenStroke{
-      brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s, false, false});
+  stroke_.emplace(
+      OpenStroke{brush, radius, std::move(probe), hit.value_or(*first), {}, {}, event.time_s});
+  if (has_one_dab(*stroke_)) {
+    drag_dab(event);
+    return Met::stroke;
+  }
   document_.send(BeginStroke{tool_of(brush, radius), style_of(brush), brush.is_stamp});
   extend_stroke(event);
   return Met::stroke;
@@ -358,6 +414,7 @@ std::optional<SurfaceHit> Gestures::hit_of(const OpenStroke& stroke,
 void Gestures::extend_stroke(const InputEvent& event) {
   assert(stroke_);
   OpenStroke& stroke = *stroke_;
+  if (has_one_dab(stroke)) return drag_dab(event);
   const auto hit = hit_of(stroke, event);
   assert(!hit || std::abs(length(hit->normal) - 1.0) < 1e-6);
   if (!hit) {
@@ -384,7 +441,12 @@ void Gestures::extend_stroke(const InputEvent& event) {
 
 void Gestures::end_stroke() {
   assert(stroke_);
-  if (!stroke_->is_off) document_.send(EndStroke{});
+  if (has_one_dab(*stroke_)) {
+    if (stroke_->is_stale) lay_dab();
+    if (stroke_->is_laid) document_.send(EndStroke{});
+  } else if (!stroke_->is_off) {
+    document_.send(EndStroke{});
+  }
   stroke_.reset();
 }
 
@@ -395,10 +457,123 @@ std::optional<SurfaceHit> Gestures::tool_hit() const {
 
 void Gestures::tick(double now_s) {
   measures_.tick();
-  if (!stroke_ || stroke_->is_off || stroke_->brush.is_stamp || stroke_->brush.hold_s <= 0.0)
-    return;
+  // Another tool or mode was chosen: the points mean nothing to it.
+  if (ui_.guide && drag_ != Drag::line && mode_of(ui_.brush) != StrokeMode::curve)
+    ui_.guide.reset();
+  const bool has_curve = ui_.outline && ui_.outline->form == DragForm::curve;
+  if (has_curve && drag_form_of(ui_) != DragForm::curve) ui_.outline.reset();
+  // When the clay has done the last one, or so often: of a large tool it is never done before the
+  // stroke ends, and more would come later and later behind the hand.
+  constexpr double kLayEveryS = 0.1;
+  const bool is_stale = stroke_ && stroke_->is_stale;
+  if (is_stale && (document_.is_idle() || now_s >= stroke_->start_s + kLayEveryS)) {
+    lay_dab();
+    stroke_->start_s = now_s;
+  }
+  if (!stroke_ || has_one_dab(*stroke_) || mode_of(stroke_->brush) == StrokeMode::dots) return;
+  if (stroke_->is_off || stroke_->brush.is_stamp || stroke_->brush.hold_s <= 0.0) return;
   stroke_->last.time_s = std::max(stroke_->last.time_s, now_s - stroke_->start_s);
   document_.send(ExtendStroke{{stroke_->last}, now_s});
+}
+
+// ---- one dab -----------------------------------------------------------------------------------
+
+/// What emboss drags to its size is a stroke of the engine's own.
+bool Gestures::has_one_dab(const OpenStroke& stroke) const noexcept {
+  const StrokeMode mode = mode_of(stroke.brush);
+  const bool is_image = stroke.brush.action == Action::emboss && mode == StrokeMode::anchored;
+  return is_one_dab(mode) && !is_image;
+}
+
+/// Where the dab is to be from now on; tick() lays it there. An anchored one is not there before
+/// the hand has moved: it would have no size.
+void Gestures::drag_dab(const InputEvent& event) {
+  constexpr double kLeastPixels = 3.0;
+  assert(stroke_);
+  OpenStroke& stroke = *stroke_;
+  stroke.input_s = event.time_s;
+  if (mode_of(stroke.brush) == StrokeMode::drag_dot) {
+    const auto hit = stroke.probe.at(pixel_of(event), stroke.radius_mm);
+    if (!hit) return;  // it stays where it was
+    stroke.hit = *hit;
+    stroke.last = sample_at(stroke.brush, stroke.radius_mm, *hit, 0.0, event.pressure);
+    stroke.is_stale = true;
+    return;
+  }
+  // In the plane of the picture through where it was pressed.
+  const WindowPart& part = stroke.probe.part();
+  const Ray ray = part.ray_at(pixel_of(event));
+  const Vec3 back = part.camera.lens({}).back;
+  const double along = dot(stroke.grip.point_mm - ray.origin_mm, back) / dot(ray.direction, back);
+  const Vec3 way = ray.origin_mm + along * ray.direction - stroke.grip.point_mm;
+  const double far = length(way);
+  if (far < kLeastPixels * part.camera.pixel_mm_at(stroke.grip.point_mm)) return;
+  stroke.radius_mm = std::clamp(far, kLeastRadiusMm, kMostRadiusMm);
+  stroke.last = anchored_sample(stroke.brush, stroke.radius_mm, stroke.grip, way, event.pressure);
+  stroke.is_stale = true;
+}
+
+/// In the place of the one that was there.
+void Gestures::lay_dab() {
+  assert(stroke_ && stroke_->is_stale);
+  OpenStroke& stroke = *stroke_;
+  if (stroke.is_laid) document_.send(CancelStroke{});
+  document_.send(BeginStroke{tool_of(stroke.brush, stroke.radius_mm), style_of(stroke.brush)});
+  document_.send(ExtendStroke{{stroke.last}, stroke.input_s});
+  stroke.is_laid = true;
+  stroke.is_stale = false;
+}
+
+// ---- lines and curves --------------------------------------------------------------------------
+
+/// The end of a line may lie beside the clay, a point of a curve may not: there the view is turned.
+Gestures::Met Gestures::begin_guide(const InputEvent& event, const SurfaceProbe& probe,
+                                    const Brush& brush) {
+  if (mode_of(brush) == StrokeMode::line) {
+    ui_.guide = StrokeGuide{StrokeMode::line, {pixel_of(event)}, {}, probe.part().eye};
+    return Met::line;
+  }
+  const auto hit = probe.at(pixel_of(event), 0.0);
+  if (!hit) return Met::nothing;
+  if (!ui_.guide) ui_.guide = StrokeGuide{StrokeMode::curve, {}, {}, probe.part().eye};
+  ui_.guide->places_mm.push_back(hit->point_mm);
+  return Met::point;
+}
+
+/// True where one was being drawn.
+bool Gestures::leave_guide() {
+  if (drag_ == Drag::line) drag_ = Drag::none;
+  return std::exchange(ui_.guide, std::nullopt).has_value();
+}
+
+void Gestures::apply_curve(const InputEvent& event) {
+  assert(ui_.guide && ui_.guide->mode == StrokeMode::curve);
+  const StrokeGuide guide = *std::exchange(ui_.guide, std::nullopt);
+  InputEvent applied = event;
+  applied.pressure = 1.0;  // no pen presses a key
+  lay_along(curve_through(pixels_of(guide, ui_.camera, ui_.show.is_stereo)), applied);
+}
+
+/// The stroke that the brush makes along a line over the picture: as a hand that follows it.
+void Gestures::lay_along(const std::vector<Camera::Pixel>& way, const InputEvent& event) {
+  constexpr double kStepPixels = 3.0;
+  constexpr double kStepS = 0.004;
+  if (!ui_.clay.has_clay || ui_.task.is_running || way.empty() || stroke_) return;
+  lays_guide_ = true;
+  InputEvent at = event;
+  const SurfaceProbe seen = probe_(way.front());
+  for (const Camera::Pixel& pixel : close_points(way, kStepPixels)) {
+    at.x = pixel.x;
+    at.y = pixel.y;
+    at.time_s += kStepS;
+    if (stroke_) {
+      extend_stroke(at);
+    } else if (seen.at(pixel, 0.0)) {
+      begin_stroke(at);
+    }
+  }
+  if (stroke_) end_stroke();
+  lays_guide_ = false;
 }
 
 }  // namespace argil::viewer

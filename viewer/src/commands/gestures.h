@@ -34,7 +34,7 @@ class Gestures {
         measures_(ui, document) {}
 
   /// `is_taken`: a panel has taken the event, so that it begins nothing here.
-  void on(const InputEvent& event, bool is_taken);
+  void on(const InputEvent& told, bool is_taken);
 
   /// Once a frame: a brush that is held still goes on working (Brush::hold_s).
   void tick(double now_s);
@@ -49,9 +49,9 @@ class Gestures {
   double tool_radius_mm() const noexcept { return stroke_ ? stroke_->radius_mm : 0.0; }
 
  private:
-  enum class Drag { none, stroke, hand, orbit, pan, path, piece, outline, measure };
+  enum class Drag { none, stroke, hand, orbit, pan, path, piece, outline, line, measure };
   /// What a press of the left button meets.
-  enum class Met { stroke, other_piece, nothing };
+  enum class Met { stroke, other_piece, line, point, nothing };
   struct OpenStroke {
     Brush brush;
     double radius_mm = 1.0;
@@ -62,8 +62,13 @@ class Gestures {
     double start_s = 0.0;
     bool is_off = false;      ///< the pointer has left the clay
     bool is_stamped = false;  ///< of a stamp: it was put on
+    // Of one dab (is_one_dab), which is laid again when the clay has come so far.
+    bool is_laid = false;
+    bool is_stale = false;
+    double input_s = 0.0;  ///< when the hand was there
   };
 
+  void note_pressure(double pressure);
   void press(const InputEvent& event);
   void move(const InputEvent& event);
   void release(const InputEvent& event);
@@ -79,11 +84,19 @@ class Gestures {
   bool begin_outline(const InputEvent& event);
   void end_outline();
   bool leave_outline();
+  void key_of_curve(const InputEvent& event);
   Met begin_stroke(const InputEvent& event);
   Drag drag_of(const InputEvent& event);
   Drag measure(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
+  bool has_one_dab(const OpenStroke& stroke) const noexcept;
+  void drag_dab(const InputEvent& event);
+  void lay_dab();
+  Met begin_guide(const InputEvent& event, const SurfaceProbe& probe, const Brush& brush);
+  bool leave_guide();
+  void apply_curve(const InputEvent& event);
+  void lay_along(const std::vector<Camera::Pixel>& way, const InputEvent& event);
   std::optional<SurfaceHit> hit_of(const OpenStroke& stroke, const InputEvent& event) const;
 
   UiState& ui_;
@@ -92,6 +105,7 @@ class Gestures {
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;
+  bool lays_guide_ = false;  ///< a line or a curve is being made a stroke
   PieceGestures pieces_;
   MeasureGestures measures_;
   std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun

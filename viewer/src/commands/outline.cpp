@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
+
+#include "commands/stroke_mode.h"
 
 namespace argil::viewer {
 namespace {
@@ -134,10 +137,55 @@ Operation cut_along(const OutlineDrag& drag) {
   return cut;
 }
 
+/// A ring around a picture.
+struct WindowRing {
+  Pixel middle;
+  double radius = 0.0;
+
+  /// Where a ray from within leaves it, as an angle, and the point there.
+  double angle_of(const Pixel& from, const Pixel& toward) const {
+    const double dx = toward.x - from.x;
+    const double dy = toward.y - from.y;
+    const double far = std::hypot(dx, dy);
+    const Pixel way{dx / far, dy / far};
+    const Pixel off{from.x - middle.x, from.y - middle.y};
+    const double along = off.x * way.x + off.y * way.y;
+    const double beside2 = off.x * off.x + off.y * off.y - along * along;
+    const double t = std::sqrt(std::max(0.0, radius * radius - beside2)) - along;
+    return std::atan2(off.y + t * way.y, off.x + t * way.x);
+  }
+  Pixel at(double angle) const {
+    return {middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)};
+  }
+};
+
+/// All to the right of a curve. With y down that is the side to which angles grow.
+Loop beside_curve(const WindowPart& part, const Loop& points) {
+  constexpr double kStep = std::numbers::pi / 16.0;
+  Loop loop = curve_through(points);
+  if (loop.size() < 2) return loop;
+  WindowRing ring;
+  ring.middle = {part.left + 0.5 * part.camera.width(), 0.5 * part.camera.height()};
+  for (const Pixel& point : loop) {
+    ring.radius = std::max(ring.radius, distance_of(ring.middle, point));
+  }
+  const double corner = 0.5 * std::hypot(part.camera.width(), part.camera.height());
+  ring.radius = 1.1 * std::max(ring.radius, corner);
+  const double begin =
+      ring.angle_of(loop[0], {2.0 * loop[0].x - loop[1].x, 2.0 * loop[0].y - loop[1].y});
+  const Pixel& last = loop.back();
+  const Pixel& before = loop[loop.size() - 2];
+  double from = ring.angle_of(last, {2.0 * last.x - before.x, 2.0 * last.y - before.y});
+  const double to = begin > from ? begin : begin + 2.0 * std::numbers::pi;
+  for (; from < to; from += kStep) loop.push_back(ring.at(from));
+  loop.push_back(ring.at(to));
+  return loop;
+}
+
 }  // namespace
 
 void extend(OutlineDrag& drag, const Pixel& to) {
-  assert(!drag.points.empty() && drag.form != DragForm::brush);
+  assert(!drag.points.empty() && drag.form != DragForm::brush && drag.form != DragForm::curve);
   if (drag.form == DragForm::lasso) {
     if (distance_of(drag.points.back(), to) >= kStepPixels) drag.points.push_back(to);
     return;
@@ -147,6 +195,7 @@ void extend(OutlineDrag& drag, const Pixel& to) {
 }
 
 std::vector<Pixel> outline_of(const OutlineDrag& drag) {
+  if (drag.form == DragForm::curve) return beside_curve(drag.part, drag.points);
   if (drag.form != DragForm::box || drag.points.size() < 2) return drag.points;
   const auto& [a, b] = std::tie(drag.points[0], drag.points[1]);
   return {a, {b.x, a.y}, b, {a.x, b.y}};

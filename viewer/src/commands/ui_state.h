@@ -21,6 +21,7 @@
 #include "commands/measure.h"
 #include "commands/outline.h"
 #include "commands/search_choice.h"
+#include "document/alpha_list.h"
 #include "document/document_thread.h"
 #include "document/settings.h"
 #include "picture/camera.h"
@@ -140,6 +141,14 @@ struct OperationChoice {
   double voxel_mm = 0.25;  ///< of resampling: the clay's when the dialog opens
 };
 
+/// Numbers of the mask's edits. A length of 0 follows the clay's voxel (mask_numbers).
+struct MaskChoice {
+  double by_mm = 0.0;      ///< how far it grows or shrinks
+  double cavity_mm = 0.0;  ///< the size of cavities
+  double cavity_factor = 1.0;
+  bool is_cavity_inverted = false;
+};
+
 /// A change of the brush by moving the mouse, until a click (F, Shift+F).
 struct BrushDrag {
   enum class What { size, strength } what = What::size;
@@ -175,6 +184,9 @@ struct PieceChoice {
   std::optional<Camera::Pixel> refused_at;
 };
 
+/// How many of them are remembered.
+inline constexpr std::size_t kMostPressures = 256;
+
 /// Pictures of a turntable: three seconds of a film.
 inline constexpr int kTurntableFrames = 72;
 
@@ -202,6 +214,7 @@ struct UiState {
   SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn
+  std::optional<StrokeGuide> guide;    ///< likewise
 
   FileWish file_wish = FileWish::none;
   AfterSaving after_saving = AfterSaving::nothing;
@@ -215,11 +228,15 @@ struct UiState {
   ImportMesh waiting_import;                                ///< of AfterSaving::import_mesh
   HapticChoice haptics;
   OperationChoice operation;
+  MaskChoice mask;
   PieceChoice pieces;
   io::ExportOptions export_options;
   mesh::Printer printer;
   std::vector<mesh::Printer> printers;  ///< that can be chosen
+  std::vector<AlphaChoice> alphas;      ///< likewise, once they were asked for
+  bool wants_alphas = false;            ///< they shall be read, if they were not
   Settings settings;
+  std::vector<float> pressures;    ///< of the pen's last strokes, as it told them, the newest last
   std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
 
   std::vector<std::filesystem::path> recent;
@@ -249,6 +266,15 @@ struct UiState {
 inline DragForm drag_form_of(const UiState& ui) noexcept {
   if (ui.brush.action == Action::mask) return ui.outlines.mask;
   return ui.brush.action == Action::trim ? ui.outlines.trim : DragForm::brush;
+}
+
+/// The numbers of the mask's edits: what nobody has set is 8 voxels of the clay, and 4 for
+/// cavities.
+inline MaskChoice mask_numbers(const UiState& ui) noexcept {
+  MaskChoice numbers = ui.mask;
+  if (numbers.by_mm <= 0.0) numbers.by_mm = 8.0 * ui.clay.voxel_mm;
+  if (numbers.cavity_mm <= 0.0) numbers.cavity_mm = 4.0 * ui.clay.voxel_mm;
+  return numbers;
 }
 
 }  // namespace argil::viewer

@@ -443,7 +443,11 @@ void DocumentWorker::on(const CancelStroke&) {
   for (; gesture_strokes_ > 0; --gesture_strokes_) {
     if (!apply_history(io::HistoryStep::undo)) break;
   }
-  feed_.active(document_.sculpture()).touch_mask_everywhere();
+  // All of it would be sent again: too much for a dab that is dragged, which is taken back again
+  // and again.
+  if (is_painted(stroke_.tool.action)) {
+    feed_.active(document_.sculpture()).touch_mask_everywhere();
+  }
 }
 
 /// Undo or redo. Where it comes to steps of before the project was opened, they are repeated first,

@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 constexpr const char* kFile = "settings.txt";
 constexpr const char* kNumberViews = "number_views";
 constexpr const char* kPanelPercent = "panel_percent";
+constexpr const char* kPressure = "pressure_curve";
 constexpr const char* kPrinter = "printer";
 constexpr const char* kFirmware = "falcon_firmware";
 constexpr const char* kUnasked = "unasked";
@@ -30,6 +31,7 @@ std::string lines_of(const Settings& settings) {
   };
   add(kNumberViews, settings.has_number_views ? "1" : "0");
   add(kPanelPercent, std::to_string(settings.panel_percent));
+  if (settings.pressure != PressureCurve()) add(kPressure, text_of(settings.pressure));
   add(kPrinter, settings.printer);
   add(kFirmware, settings.firmware.string());
   for (const std::string& one : settings.unasked) add(kUnasked, one);
@@ -63,6 +65,7 @@ Settings read_settings(const fs::path& home) {
     const std::string value = line.substr(blank + 1);
     if (name == kNumberViews) settings.has_number_views = value == "1";
     if (name == kPanelPercent) settings.panel_percent = percent_of(value);
+    if (name == kPressure) settings.pressure = pressure_of(value).value_or(PressureCurve());
     if (name == kPrinter) settings.printer = value;
     if (name == kFirmware) settings.firmware = value;
     if (name == kUnasked && !value.empty()) settings.unasked.push_back(value);
@@ -77,6 +80,7 @@ Result<void> write_changes(const fs::path& home, const Settings& before, const S
     settings.has_number_views = after.has_number_views;
   }
   if (after.panel_percent != before.panel_percent) settings.panel_percent = after.panel_percent;
+  if (after.pressure != before.pressure) settings.pressure = after.pressure;
   if (after.printer != before.printer) settings.printer = after.printer;
   if (after.firmware != before.firmware) settings.firmware = after.firmware;
   if (after.unasked != before.unasked) settings.unasked = after.unasked;

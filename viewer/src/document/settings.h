@@ -8,6 +8,8 @@
 
 #include "argil/core/result.h"
 
+#include "document/pressure_curve.h"
+
 namespace argil::viewer {
 
 /// What Settings::panel_percent may be chosen from.
@@ -21,6 +23,7 @@ struct Settings {
   /// Projects of killed windows that are not asked about any more, as LeftProject::state.
   std::vector<std::string> unasked = {};
   int panel_percent = 100;  ///< size of panels and letters, of what the screen asks for; 75 to 300
+  PressureCurve pressure;   ///< of a pen
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <concepts>
 #include <cstdio>
 #include <iterator>
@@ -79,10 +80,23 @@ struct NameOf {
         return "Mask inverted";
       case MaskEdit::blur:
         return "Mask blurred";
+      case MaskEdit::sharpen:
+        return "Mask sharpened";
       case MaskEdit::fill:
         break;
     }
     return "Mask filled";
+  }
+  std::string operator()(const std::same_as<MaskFilter> auto& filter) const {
+    return std::visit(*this, filter);
+  }
+  std::string operator()(const MaskGrow& grow) const {
+    const char* what = grow.by_mm < 0.0 ? "Mask shrunk by" : "Mask grown by";
+    return with_mm(what, std::abs(grow.by_mm));
+  }
+  std::string operator()(const MaskCavity& cavity) const {
+    return with_mm(cavity.is_inverted ? "All but cavities masked," : "Cavities masked,",
+                   cavity.radius_mm);
   }
   std::string operator()(const MaskOutline& outline) const {
     return outline.frees ? "Unmasked within" : "Masked within";

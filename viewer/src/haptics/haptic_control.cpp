@@ -136,8 +136,9 @@ Result<void> HapticControl::start(double now_s) {
     ui_.notices.push_back({Notice::Kind::warning, rig_.priority_refusal()});
   }
   Tool tool = tool_of(brush_with(ui_.brush, {}), rig_.options().tool.radii_mm.x);
-  document_.send(
-      LinkHaptics{&rig_.ring(), &rig_.channel(), &heartbeat_, tool, style_of(ui_.brush), piece_});
+  StrokeStyle style = style_of(ui_.brush);
+  style.has_dots = false;  // a device tells where it is 200 times a second
+  document_.send(LinkHaptics{&rig_.ring(), &rig_.channel(), &heartbeat_, tool, style, piece_});
   return {};
 }
 

@@ -98,6 +98,16 @@ void draw_files(UiState& ui, DocumentThread& document) {
   ImGui::Separator();
 }
 
+/// What the hand does in the mode at hand; empty for what needs no words.
+std::string words_of_drawing(const UiState& ui) {
+  if (ui.outline && ui.outline->form == DragForm::curve) {
+    return words_of(StrokeMode::curve, ui.outline->points.size());
+  }
+  const bool has_device = ui.haptics.device != DeviceChoice::mouse;
+  if (has_device || drag_form_of(ui) != DragForm::brush) return {};
+  return words_of(mode_of(ui.brush), ui.guide ? ui.guide->places_mm.size() : 0);
+}
+
 /// What the buttons of the mouse do now.
 std::string buttons_of(const UiState& ui) {
   const char* const others = ", middle: move, right: turn";
@@ -226,6 +236,8 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   } else if (ui.measures.tool) {
     ImGui::Text("%s   |   Measuring: Delete removes what is chosen, Esc leaves",
                 file_text(clay).c_str());
+  } else if (const std::string words = words_of_drawing(ui); !words.empty()) {
+    ImGui::Text("%s   |   %s", file_text(clay).c_str(), words.c_str());
   } else {
     draw_figures(ui, frame);
   }

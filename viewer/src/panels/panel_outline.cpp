@@ -42,7 +42,36 @@ void shade_side(ImDrawList& list, const ImVec2& a, const ImVec2& b, bool is_left
 
 }  // namespace
 
+namespace {
+
+/// A curve that is being clicked together, with ticks to the side that it takes away.
+void draw_trim_curve(const OutlineDrag& drag, const UiState& ui, ImU32 line, float width) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  std::vector<Camera::Pixel> points = drag.points;
+  for (const Camera::Pixel& point : points) {
+    list.AddCircleFilled(as_screen(point), 4.0F * unit(), line);
+  }
+  if (ui.is_pointer_over_clay_view) points.push_back(ui.pointer);
+  const std::vector<Camera::Pixel> curve = curve_through(points);
+  const double side = drag.is_inverse ? -1.0 : 1.0;
+  for (std::size_t n = 0; n + 1 < curve.size(); ++n) {
+    const Camera::Pixel& a = curve[n];
+    const Camera::Pixel& b = curve[n + 1];
+    list.AddLine(as_screen(a), as_screen(b), line, width);
+    const double far = std::hypot(b.x - a.x, b.y - a.y);
+    if (n % 4 != 0 || !(far > 0.0)) continue;
+    const double tick = side * 10.0 * static_cast<double>(unit()) / far;
+    list.AddLine(as_screen(a), as_screen({a.x - tick * (b.y - a.y), a.y + tick * (b.x - a.x)}),
+                 line, 0.6F * width);
+  }
+}
+
+}  // namespace
+
 void draw_outline(const UiState& ui) {
+  if (ui.outline && ui.outline->form == DragForm::curve) {
+    return draw_trim_curve(*ui.outline, ui, ImGui::GetColorU32(kTrimColor), 1.6F * unit());
+  }
   if (!ui.outline || ui.outline->points.size() < 2) return;
   const OutlineDrag& drag = *ui.outline;
   assert(drag.form != DragForm::brush);

@@ -118,25 +118,32 @@ void draw_falloff(Brush& brush) {
   if (pick_one("Falloff", at, names)) brush.falloff = taken[static_cast<std::size_t>(at)];
 }
 
-void draw_alpha(UiState& ui) {
+void draw_alpha(UiState& ui, DocumentThread& document) {
   Brush& brush = ui.brush;
+  draw_alphas(ui, document);
   if (button("Choose an image...")) ui.file_wish = FileWish::alpha;
   ImGui::SameLine();
   ImGui::TextDisabled("%s", ui.clay.alpha ? ui.clay.alpha->name.c_str() : "white");
-  int mode = static_cast<int>(brush.alpha_mode);
+  // That an image is dragged to its size is a mode of strokes.
+  const bool is_dragged = brush.emboss_mode == StrokeMode::anchored;
+  int mode = static_cast<int>(is_dragged ? AlphaMode::anchored : brush.alpha_mode);
   if (pick_one("Image", mode, {"Along the stroke", "Dragged", "Tiled"})) {
-    brush.alpha_mode = static_cast<AlphaMode>(mode);
+    const auto chosen = static_cast<AlphaMode>(mode);
+    const bool drags = chosen == AlphaMode::anchored;
+    if (drags) brush.emboss_mode = StrokeMode::anchored;
+    if (!drags) brush.alpha_mode = chosen;
+    if (!drags && is_dragged) brush.emboss_mode = StrokeMode::space;
   }
   slide("Amplitude", brush.amplitude, 0.01, 1.0, "%.2f radii");
   slide("Mid level", brush.mid_level, 0.0, 1.0, "%.2f");
   slide("Angle", brush.angle_deg, -180.0, 180.0, "%.0f degrees");
-  if (brush.alpha_mode == AlphaMode::space) check("Rake", brush.use_rake);
+  if (!is_dragged && brush.alpha_mode == AlphaMode::space) check("Rake", brush.use_rake);
   if (brush.alpha_mode == AlphaMode::tiled) slide("Tile", brush.tile, 0.1, 4.0, "%.2f radii");
   slide("Tip roundness", brush.tip_roundness, 0.05, 1.0, "%.2f");
 }
 
 /// What the chosen tool alone reads.
-void draw_tool_options(UiState& ui) {
+void draw_tool_options(UiState& ui, DocumentThread& document) {
   Brush& brush = ui.brush;
   switch (brush.action) {
     case Action::clay_strips:
@@ -156,7 +163,7 @@ void draw_tool_options(UiState& ui) {
       slide("Magnify", brush.crease_pinch_factor, 0.0, 1.0, "%.2f");
       return;
     case Action::emboss:
-      draw_alpha(ui);
+      draw_alpha(ui, document);
       return;
     case Action::noise:
       slide("Wavelength", brush.wavelength, 0.1, 2.0, "%.2f radii");
@@ -164,6 +171,16 @@ void draw_tool_options(UiState& ui) {
       return;
     default:
       return;
+  }
+}
+
+/// How a drag becomes a stroke, of tools that may choose.
+void draw_stroke_mode(Brush& brush) {
+  if (!takes_modes(brush)) return;
+  StrokeMode& mode = chosen_mode(brush);
+  int at = static_cast<int>(mode);
+  if (pick_one("Method", at, {kStrokeModeNames.begin(), kStrokeModeNames.end()})) {
+    mode = static_cast<StrokeMode>(at);
   }
 }
 
@@ -184,20 +201,10 @@ void draw_drag_form(UiState& ui) {
   if (!is_mask && ui.brush.action != Action::trim) return;
   DragForm& form = is_mask ? ui.outlines.mask : ui.outlines.trim;
   std::vector<std::string> names{"Brush", "Lasso", "Box"};
-  if (!is_mask) names.emplace_back("Line");
+  if (!is_mask) names.insert(names.end(), {"Line", "Curve"});
   int at = static_cast<int>(form);
   if (pick_one("Drawn by", at, names)) form = static_cast<DragForm>(at);
   if (is_mask && form != DragForm::brush) check("Front faces only", ui.outlines.front_only);
-}
-
-/// The mask's edits of the menu, where the mask is painted.
-void draw_mask_edits(UiState& ui, DocumentThread& document) {
-  for (const Command command :
-       {Command::mask_invert, Command::mask_clear, Command::mask_blur, Command::mask_fill}) {
-    if (command != Command::mask_invert) ImGui::SameLine();
-    if (button((std::string(info_of(command).title) + "##mask").c_str()))
-      perform(command, ui, document);
-  }
 }
 
 /// How large panels and letters are, on top of what the screen asks for.
@@ -265,18 +272,20 @@ void draw_brush(UiState& ui, DocumentThread& document) {
     slide("Width", brush.width, 0.3, 1.0, "%.2f");
   }
   draw_falloff(brush);
-  draw_tool_options(ui);
+  draw_tool_options(ui, document);
   draw_drag_form(ui);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
   if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");
   note_widget("Stroke");
   if (has_stroke) {
+    draw_stroke_mode(brush);
     slide("Spacing", brush.spacing, 0.05, 2.0, "%.2f");
     slide("Steady", brush.steady_mm, 0.0, 20.0, "%.1f mm");
     slide("Hold still", brush.hold_s, 0.0, 1.0, "%.2f s");
     slide("Pressure: strength", brush.pressure_to_strength, 0.0, 1.0, "%.2f");
     slide("Pressure: size", brush.pressure_to_size, 0.0, 1.0, "%.2f");
+    draw_pressure(ui);
   }
   ImGui::PopItemWidth();
   ImGui::End();

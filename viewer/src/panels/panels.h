@@ -25,9 +25,13 @@ struct FrameState {
 // Each draws from the state and writes choices into it. What they do goes through commands and
 // requests.
 void draw_outline(const UiState& ui);
+void draw_guide(const UiState& ui);
 void draw_menu(UiState& ui, DocumentThread& document);
 void draw_tools(UiState& ui);
 void draw_brush(UiState& ui, DocumentThread& document);
+void draw_mask_edits(UiState& ui, DocumentThread& document);
+void draw_alphas(UiState& ui, DocumentThread& document);
+void draw_pressure(UiState& ui);
 void draw_view(UiState& ui);
 void draw_info(UiState& ui);
 void draw_history(UiState& ui, DocumentThread& document);

@@ -88,12 +88,13 @@ struct Resample {
 using Operation = std::variant<Offset, Hollow, Cut, Combine, Resample>;
 
 /// What can be done to a clay's mask as a whole: Clay::apply(edit). Strokes of Action::mask paint
-/// it.
+/// it; what looks at the surface is a MaskFilter (mask_filter.h).
 enum class MaskEdit {
   clear,   ///< nothing is masked
   invert,  ///< what is masked is free and the other way round, in all of space; twice is as before
   blur,    ///< borders become softer: an average over 7 nodes, 14 finest voxels, along each axis
-  fill     ///< everything is masked
+  fill,    ///< everything is masked
+  sharpen  ///< borders become half as wide about where they are a half: 2 m - 1/2, from 0 to 1
 };
 
 /// What an operation did.

@@ -53,6 +53,11 @@ struct StrokeStyle {
   /// While the hand rests another dab falls every so many seconds of the samples' time, 0.005 to
   /// 3600, and at most 100 from one sample to the next; 0: never. For anchored actions never.
   double hold_s = 0.0;
+
+  /// Each sample is one dab of a quarter radius' weight, wherever it lies, and nothing is between
+  /// two: `spacing` and `hold_s` are not read. Actions that take their whole path at once have none
+  /// of it, but emboss lays an image with each.
+  bool has_dots = false;
 };
 
 /// The timed series of poses between press and release: what scripts and journals hold a line of.
@@ -119,6 +124,7 @@ class DabFeeder {
   StrokeStyle style_;
   bool is_anchored_;
   bool is_swept_;
+  bool is_dotted_;  ///< each sample is a dab
   bool is_placed_;  ///< each dab stands for itself and not for a piece of path
   double radius_mm_;
   double quarters_ = 1.0;  ///< of the radius, that a step is long

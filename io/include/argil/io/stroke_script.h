@@ -11,6 +11,7 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/clay.h"
+#include "argil/engine/mask_filter.h"
 #include "argil/engine/mask_outline.h"
 #include "argil/engine/operation.h"
 #include "argil/engine/sculpture.h"
@@ -29,7 +30,8 @@ struct StartShape {
 enum class HistoryStep { undo, redo };
 
 /// What a person did to the clay, as one line of a script or journal.
-using ScriptStep = std::variant<Stroke, HistoryStep, Operation, MaskEdit, MaskOutline, PieceEdit>;
+using ScriptStep =
+    std::variant<Stroke, HistoryStep, Operation, MaskEdit, MaskFilter, MaskOutline, PieceEdit>;
 
 struct StrokeScript {
   std::optional<StartShape> start;
