@@ -283,8 +283,8 @@ void draw_brush(UiState& ui, DocumentThread& document) {
     slide("Spacing", brush.spacing, 0.05, 2.0, "%.2f");
     slide("Steady", brush.steady_mm, 0.0, 20.0, "%.1f mm");
     slide("Hold still", brush.hold_s, 0.0, 1.0, "%.2f s");
-    slide("Pressure: strength", brush.pressure_to_strength, 0.0, 1.0, "%.2f");
-    slide("Pressure: size", brush.pressure_to_size, 0.0, 1.0, "%.2f");
+    slide("Pen: strength", brush.pressure_to_strength, 0.0, 1.0, "%.2f");
+    slide("Pen: size", brush.pressure_to_size, 0.0, 1.0, "%.2f");
     draw_pressure(ui);
   }
   ImGui::PopItemWidth();
