@@ -33,8 +33,12 @@ int deeper_by(const ScriptStep& step) {
 
 }  // namespace
 
-std::optional<HistoryCut> history_cut(const Journal& journal, const HistoryBounds& bounds) {
+std::optional<HistoryCut> history_cut(const Journal& journal,
+                                      const std::vector<std::uint64_t>& solid_bytes,
+                                      const HistoryBounds& bounds) {
   assert(journal.first_read == 0 && journal.damage.empty());
+  assert(solid_bytes.size() == journal.steps.size());
+  std::uint64_t solids = 0;
   std::optional<HistoryCut> cut;
   int undos = 0;    // from the end to before step `first`
   int deepest = 0;  // of these, of all states from there on
@@ -42,7 +46,8 @@ std::optional<HistoryCut> history_cut(const Journal& journal, const HistoryBound
   bool may_choose = false;
   for (std::size_t first = journal.steps.size(); first-- > 0;) {
     if (journal.steps.size() - first > bounds.steps) break;
-    if (journal.whole_bytes - journal.begins[first] > bounds.bytes) break;
+    solids += solid_bytes[first];
+    if (journal.whole_bytes - journal.begins[first] + solids > bounds.bytes) break;
     const ScriptStep& step = journal.steps[first];
     undos += deeper_by(step);
     deepest = std::max(deepest, undos);
@@ -57,17 +62,23 @@ std::optional<HistoryCut> history_cut(const Journal& journal, const HistoryBound
   return cut;
 }
 
-std::string shortened(const Journal& journal, std::string_view text, std::size_t first,
-                      const std::string& base_hash, const std::string& end_hash) {
+std::string steps_from(const Journal& journal, std::string_view text, std::size_t first,
+                       const ScriptHeader& header) {
   assert(first < journal.steps.size());
-  std::string left = sealed_line(header_line({std::nullopt, base_hash, journal.keeps_history}));
+  std::string left = sealed_line(header_line(header));
   left += "\n";
   for (std::size_t n = first; n < journal.steps.size(); ++n) {
     const std::size_t begin = journal.begins[n];
     left += text.substr(begin, text.find('\n', begin) - begin);
     left += "\n";
   }
-  return left + sealed_line(mark_line({end_hash, journal.steps.size() - first, true})) + "\n";
+  return left;
+}
+
+std::string shortened(const Journal& journal, std::string_view text, std::size_t first,
+                      const std::string& base_hash, const std::string& end_hash) {
+  return steps_from(journal, text, first, {std::nullopt, base_hash, journal.keeps_history}) +
+         sealed_line(mark_line({end_hash, journal.steps.size() - first, true})) + "\n";
 }
 
 }  // namespace argil::io

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "project/journal.h"
 
@@ -27,8 +28,15 @@ struct HistoryBounds {
 /// The cut that keeps most within the bounds; nothing where there is none. No undo behind it
 /// reaches before it, and which piece is active there is known: none becomes it behind the cut, or
 /// the first step says which.
-/// `journal`: read as a whole, without damage.
-std::optional<HistoryCut> history_cut(const Journal& journal, const HistoryBounds& bounds);
+/// `journal`: read as a whole, without damage. `solid_bytes`: for each step those of the solid that
+/// no later step names.
+std::optional<HistoryCut> history_cut(const Journal& journal,
+                                      const std::vector<std::uint64_t>& solid_bytes,
+                                      const HistoryBounds& bounds);
+
+/// The text of a journal of the steps from `first` on, without marks. `text`: of the whole one.
+std::string steps_from(const Journal& journal, std::string_view text, std::size_t first,
+                       const ScriptHeader& header);
 
 /// The text of the journal from the cut on, with `base_hash` of the state there and, behind the
 /// last step, the closing mark of `end_hash`. `text`: of the whole one.

@@ -21,6 +21,8 @@ void take_line(ScriptLine line, std::uint64_t begin, Journal& journal) {
     journal.begins.push_back(begin);
   } else {
     journal.marks.push_back(std::get<HashMark>(std::move(line)));
+    // Only what is kept gets such a mark, though a session that keeps none may have begun it.
+    if (journal.marks.back().is_closing) journal.keeps_history = true;
   }
 }
 
@@ -76,6 +78,23 @@ KnownMark find_known(const fs::path& file, std::string_view text, const std::str
     }
   }
   return known;
+}
+
+/// After how many steps a session has ended in order, by marks that are whole, also behind damage:
+/// what is wrong with steps must not hide that none were left.
+std::size_t last_closing(const fs::path& file, std::string_view text) {
+  std::size_t closed = 0;
+  SolidReader no_solids(file.parent_path());
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string_view::npos) return closed;
+    const std::string_view line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (!is_mark(line) || !has_whole_seal(line)) continue;
+    const auto read = read_script_line({file.string(), 0}, line, no_solids);
+    const auto* mark = read ? std::get_if<HashMark>(&read.value()) : nullptr;
+    if (mark != nullptr && mark->is_closing) closed = std::max(closed, mark->after);
+  }
 }
 
 /// Whether a line lies before the known mark and among its steps.
@@ -165,6 +184,7 @@ Result<Journal> parse_journal(const fs::path& file, std::string_view text,
   assert(journal.begins.size() == journal.steps.size() && journal.whole_bytes <= text.size());
   assert(journal.first_read <= journal.steps.size());
   journal.solids = solids.files();
+  journal.closed_after = last_closing(file, text);
   return journal;
 }
 
@@ -187,11 +207,7 @@ std::optional<std::size_t> Journal::position_of(const std::string& hash) const {
 
 std::optional<std::size_t> Journal::position_of_project(const std::string& hash) const {
   const auto position = position_of(hash);
-  const auto is_later = [&](const HashMark& mark) {
-    return mark.is_closing && mark.after > position.value_or(0);
-  };
-  if (std::any_of(marks.begin(), marks.end(), is_later)) return std::nullopt;
-  return position;
+  return closed_after > position.value_or(0) ? std::nullopt : position;
 }
 
 Result<std::optional<UnwrittenBytes>> read_journal_bytes(const fs::path& file) {

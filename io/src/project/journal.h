@@ -20,7 +20,7 @@ namespace argil::io {
 /// not whole.
 struct Journal {
   std::string base_hash;       ///< empty when not even the header is whole
-  bool keeps_history = false;  ///< as its header says
+  bool keeps_history = false;  ///< as its header says, or a closing mark
 
   /// Those before `first_read` are only counted: each is an empty stroke.
   std::vector<ScriptStep> steps;
@@ -28,6 +28,7 @@ struct Journal {
   std::string hole;  ///< what is wrong with a line among those; empty: nothing that shows
 
   std::vector<HashMark> marks;
+  std::size_t closed_after = 0;       ///< steps when a session last ended in order; 0: none has
   std::set<std::string> solids;       ///< files that the steps that were read name, as they do
   std::vector<std::uint64_t> begins;  ///< bytes of the file before each step's line
   std::uint64_t whole_bytes = 0;      ///< bytes up to the end of the last whole line

@@ -333,7 +333,9 @@ Result<void> Session::save() {
 Result<void> Session::close() {
   return no_throw(state_->files.project.string(), [&]() -> Result<void> {
     if (auto saved = state_->save(state_->keeps_history()); !saved) return saved.error();
-    if (auto ended = state_->end_history(); !ended) return ended;
+    // The project has every step. What cannot be kept or removed from here on is undo's alone, and
+    // the sculpture may be an earlier one meanwhile: nobody may go on with that.
+    static_cast<void>(no_throw("the history", [&] { return state_->end_history(); }).ok());
     state_.reset();
     return {};
   });
@@ -383,13 +385,19 @@ const fs::path& Session::State::base() const {
 }
 
 /// Every step so far.
-/// Errors  disk: not all of them are to be had any more, or not what they start from.
+/// Errors  bad_input: not all of them are to be had any more, which no other try changes; disk;
+///         memory.
 Result<Journal> Session::State::told() {
   if (auto flushed = journal->flush(); !flushed) return flushed.error();
   auto read = read_journal(files.journal);
   if (!read) return read.error();
-  if (!read.value() || read.value()->steps.size() != steps || !is_there(base())) {
+  if (!read.value() || !is_there(base())) {
     return Error{ErrorKind::disk, quoted_name(files.journal) + " or what it starts from is gone"};
+  }
+  if (read.value()->steps.size() != steps) {
+    const std::string& damage = read.value()->damage;
+    return Error{ErrorKind::bad_input,
+                 damage.empty() ? quoted_name(files.journal) + " was changed" : damage};
   }
   return *std::move(read).value();
 }
@@ -466,7 +474,10 @@ Result<SavedAs> Session::save_as(const fs::path& file) {
       return written.error();
     }
     if (!drops) result.notes = std::move(aside_notes);
-    if (drops) remove_aside(aside.value());
+    if (drops) {
+      remove_aside(aside.value());
+      static_cast<void>(remove_solids(files, written.value().solids).ok());
+    }
     const std::string& undo_lost = written.value().undo_lost;
     result.keeps_undo = undo_lost.empty();
     if (!result.keeps_undo) result.notes.push_back("undo ends at the save: " + undo_lost);

@@ -15,8 +15,6 @@
 #include "script/step_solid.h"
 
 namespace argil::io {
-namespace {
-
 namespace fs = std::filesystem;
 
 Result<void> write_journal_text(const fs::path& file, const std::string& text) {
@@ -25,6 +23,22 @@ Result<void> write_journal_text(const fs::path& file, const std::string& text) {
     out.write(text);
     return out.close();
   });
+}
+
+namespace {
+
+/// For each step the bytes of the solid that it works with and no later one does: what goes when
+/// the journal is cut behind it.
+std::vector<std::uint64_t> solid_bytes_of_steps(const Journal& journal, const SessionFiles& files) {
+  std::vector<std::uint64_t> bytes(journal.steps.size(), 0);
+  std::set<std::string> later;
+  for (std::size_t n = journal.steps.size(); n-- > 0;) {
+    const auto solid = solid_of(journal.steps[n]);
+    if (!solid) continue;
+    const std::string name = name_of(*solid, files.solid_front).file;
+    if (later.insert(name).second) bytes[n] = bytes_of_file(files.project.parent_path() / name);
+  }
+  return bytes;
 }
 
 /// Files of what the steps from `first` on work with.
@@ -48,8 +62,9 @@ std::string mark_of(const Sculpture& sculpture, std::size_t steps) {
 }
 
 Error history_is_lost(const fs::path& project, const std::string& why) {
-  return {ErrorKind::bad_input, "undo ends where " + quoted_name(project) +
-                                    " was opened; the steps before cannot be repeated: " + why};
+  return {ErrorKind::bad_input,
+          "undo ends where " + quoted_name(project) +
+              " was opened; the steps before cannot be repeated, and go when it is closed: " + why};
 }
 
 Result<std::vector<FileAside>> put_aside(const SessionFiles& files, const std::string& word,
@@ -126,8 +141,7 @@ Result<void> Session::State::deepen(const Progress& progress) {
   };
   const auto all = told();
   if (!all) {
-    const ErrorKind kind = all.error().kind;
-    if (kind == ErrorKind::memory || kind == ErrorKind::interrupted) return all.error();
+    if (all.error().kind != ErrorKind::bad_input) return all.error();
     return lost(all.error().message);
   }
   auto made = make_anew(base(), all.value(), sculpture.hash(), options.limits, progress);
@@ -163,10 +177,8 @@ Result<void> Session::State::remove_history() {
 Result<void> Session::State::end_history() {
   assert(steps == saved_steps);
   if (!keeps_history() || steps == 0 || !is_there(files.origin)) return remove_history();
-  if (!history_lost.empty()) {
-    auto aside = put_aside(files, "unread", notes);
-    return aside ? Result<void>() : aside.error();
-  }
+  // Told when it was found. The project has all that these steps led to.
+  if (!history_lost.empty()) return remove_history();
   if (auto removed = remove_if_there(files.autosave); !removed) return removed;
   mark_as_closed();
   return shorten_history();
@@ -196,11 +208,17 @@ Result<void> Session::State::shorten_history() {
   const auto whole = parse_journal(files.journal, text_of(*text.value()));
   if (!whole) return whole.error();
   if (whole.value().steps.size() != steps || !whole.value().damage.empty()) return remove_history();
-  const auto cut =
-      history_cut(whole.value(), {most / 2, options.history_bytes / 2, sculpture.undo_depth()});
+  // Those of steps that are no more first: they may be what weighs.
+  if (auto removed = remove_solids(files, whole.value().solids); !removed) return removed;
+  const auto solid_bytes = solid_bytes_of_steps(whole.value(), files);
+  const int undos = sculpture.undo_depth();
+  auto cut = history_cut(whole.value(), solid_bytes, {most / 2, options.history_bytes / 2, undos});
+  // One of few heavy steps may have none within the half.
+  if (!cut) cut = history_cut(whole.value(), solid_bytes, {most, options.history_bytes, undos});
   const bool is_enough = cut && steps - cut->first >= most / 4;
   if (!is_enough && !is_far_too_much) return {};
-  if (!cut || cut->first == 0) return remove_history();
+  if (!cut) return remove_history();
+  if (cut->first == 0) return {};
   cut_history(whole.value(), text_of(*text.value()), *cut);
   return {};
 }

@@ -38,6 +38,9 @@ struct WrittenAs {
   std::string undo_lost;  ///< why there is no journal though there were steps
 };
 
+/// A whole journal at once. Errors  as replace_file.
+Result<void> write_journal_text(const std::filesystem::path& file, const std::string& text);
+
 /// The sealed line of a mark.
 std::string mark_of(const std::string& hash, std::size_t steps);
 std::string mark_of(const Sculpture& sculpture, std::size_t steps);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Projects that no session is open on: what was left beside them, and how they are read, replaced
 // and removed.
+#include <cerrno>
 #include <chrono>
 #include <system_error>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "argil/io/project_file.h"
 
 #include "file/file_bytes.h"
+#include "project/history_cut.h"
 #include "project/session_state.h"
 #include "vdb/project_header.h"
 
@@ -22,6 +24,7 @@ namespace fs = std::filesystem;
 struct OwnJournal {
   Journal journal;
   std::size_t project_steps = 0;
+  std::string hash;  ///< of the project
   std::size_t left() const { return journal.steps.size() - project_steps; }
 };
 
@@ -37,7 +40,7 @@ Result<std::optional<OwnJournal>> read_own_journal(const SessionFiles& files) {
   if (!journal) return journal.error();
   const auto steps = journal.value().position_of_project(hash);
   if (!steps) return std::optional<OwnJournal>();
-  return std::optional(OwnJournal{std::move(journal).value(), *steps});
+  return std::optional(OwnJournal{std::move(journal).value(), *steps, hash});
 }
 
 }  // namespace
@@ -75,14 +78,21 @@ bool is_in_session(const fs::path& file) {
 
 namespace {
 
-/// Steps behind a history go into a journal of their own; the history stays.
+/// Steps behind a history go into a journal of their own, which starts from the project as it is;
+/// the history stays.
 Result<void> put_behind_history_aside(const SessionFiles& files, const OwnJournal& own,
                                       std::vector<std::string>& notes) {
+  const auto bytes = read_journal_bytes(files.journal);
+  if (!bytes) return bytes.error();
+  if (!bytes.value()) return disk_error("read", files.journal, ENOENT);
   const fs::path aside = free_aside(files.journal, "left");
-  if (auto kept = keep_bytes(files.journal, aside); !kept) return kept;
+  const std::string left = steps_from(own.journal, text_of(*bytes.value()), own.project_steps,
+                                      {std::nullopt, own.hash, false});
+  if (auto kept = write_journal_text(aside, left); !kept) return kept;
   notes.push_back("the steps that were left are kept as " + quoted_name(aside));
   if (auto removed = remove_if_there(files.autosave); !removed) return removed;
-  return cut_journal(files.journal, own.journal.begins[own.project_steps], false, notes);
+  return cut_journal(files.journal, own.journal.begins[own.project_steps],
+                     !own.journal.damage.empty(), notes);
 }
 
 }  // namespace

@@ -264,6 +264,21 @@ TEST_F(SessionHistory, OfAProjectThatAnOlderCopyReplacedIsPutAside) {
   }
 }
 
+TEST_F(SessionHistory, ThatIsDamagedIsNotRepeatedOnAnOlderCopyEither) {
+  ASSERT_TRUE(save_project(file("old.vdb"), history_start()));
+  work_and_close();
+  // The step with the rod cannot be read, nor what is behind it.
+  for (const std::string& name : folder_.names()) {
+    if (name.starts_with(".piece.solid-")) fs::remove(file(name));
+  }
+  fs::copy_file(file("old.vdb"), file(), fs::copy_options::overwrite_existing);
+  EXPECT_FALSE(left_steps(file()).value());
+  EXPECT_EQ(open_project(file()).value().recovered_steps, 0);
+  Session session = open();
+  EXPECT_EQ(session.clay().hash(), hashes_.front());
+  EXPECT_TRUE(fs::exists(file("piece.journal.jsonl.foreign-1")));
+}
+
 TEST_F(SessionHistory, FromAnotherOriginIsNeverTaken) {
   work_and_close();
   ASSERT_TRUE(save_project(file(".piece.origin.vdb"), Clay::ball(5.0, {0.4, 0.1}).value()));
@@ -280,8 +295,7 @@ TEST_F(SessionHistory, FromAnotherOriginIsNeverTaken) {
   EXPECT_EQ(session.clay().hash(), hashes_.back());
   EXPECT_EQ(session.sculpture().undo_depth(), 1);
   ASSERT_TRUE(session.close());
-  EXPECT_TRUE(fs::exists(file("piece.journal.jsonl.unread-1")));
-  EXPECT_FALSE(fs::exists(file("piece.journal.jsonl")));
+  EXPECT_THAT(folder_.names(), ElementsAre("piece.vdb")) << "said, and nothing stays hidden";
   EXPECT_EQ(load_project(file()).value().hash(), hashes_.back());
 }
 
@@ -445,6 +459,7 @@ TEST_F(SessionHistory, OfTheOneThatIsSavedOverGoes) {
     EXPECT_EQ(name.find(".replaced-"), std::string::npos) << name;
   }
   ASSERT_TRUE(session.value().close());
+  for (const std::string& name : folder_.names()) EXPECT_FALSE(name.starts_with(".piece.solid-"));
   Session again = open();
   ASSERT_TRUE(again.deepen());
   EXPECT_EQ(again.sculpture().undo_depth(), 1);
@@ -464,6 +479,48 @@ TEST_F(SessionHistory, LeftStepsThatNobodyWantsGoAloneAndItStays) {
   EXPECT_EQ(session.clay().hash(), hashes_[7]);
   ASSERT_TRUE(session.deepen());
   expect_each_earlier_state(session, 7);
+}
+
+TEST_F(SessionHistory, LeftStepsAreAScriptForTheProjectAsItIs) {
+  work_and_close();
+  {
+    Session session = open();
+    sculpt(session, 20, 2);
+  }
+  ASSERT_TRUE(put_left_steps_aside(file()));
+  fs::copy_file(file(), file("again.vdb"));
+  fs::rename(file("piece.journal.jsonl.left-1"), file("again.journal.jsonl"));
+  auto again = Session::open(file("again.vdb"), keeping());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again.value().recovered_steps(), 2);
+  EXPECT_EQ(again.value().clay().hash(), hashes_.back());
+}
+
+TEST_F(SessionHistory, ThatCannotBeRemovedDoesNotHinderTheEnd) {
+  SessionOptions plain;
+  plain.autosave_steps = 0;
+  Session session = create(plain);
+  sculpt(session, 0, 2);
+  // The name of a solid that no program can unlink.
+  fs::create_directory(file(".piece.solid-0123456789abcdef.ply"));
+  const auto closed = session.close();
+  ASSERT_TRUE(closed) << closed.error().message;
+  EXPECT_FALSE(is_in_session(file()));
+  EXPECT_EQ(load_project(file()).value().hash(), hashes_.back());
+}
+
+TEST_F(SessionHistory, ThatAPlainSessionBeganGoesOnOnceItWasKept) {
+  SessionOptions plain;
+  plain.autosave_steps = 0;
+  {
+    Session session = create(plain);
+    sculpt(session, 0, 2);
+  }  // as after a kill
+  ASSERT_TRUE(open().close());
+  ASSERT_TRUE(open(plain).close());
+  Session session = open();
+  ASSERT_TRUE(session.deepen());
+  expect_each_earlier_state(session, 2);
 }
 
 TEST_F(SessionHistory, ThatIsForgottenLeavesTheProjectAlone) {

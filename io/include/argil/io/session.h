@@ -145,13 +145,13 @@ class Session {
   /// its hash is that of this one. Bits, clays and surfaces stay as they are (SessionHistory.*).
   /// Nothing where there are none, or while a stroke is open.
   /// Errors  interrupted, memory, disk: nothing was changed, and may be tried again; bad_input: the
-  ///         steps cannot be repeated; has_older_steps() is false then, and close() puts them aside
-  ///         as NAME.journal.jsonl.unread-N.
+  ///         steps cannot be repeated; has_older_steps() is false then, and close() removes them
+  ///         and those since: the project has what they led to.
   /// Cost    what the steps took, without the hand's time; the memory of a second clay and
   ///         of its history meanwhile.
   Result<void> deepen(const Progress& progress = {});
 
-  /// All steps of the journal. Errors  disk: they are not to be had any more; memory.
+  /// All steps of the journal. Errors  bad_input: not to be had any more; disk; memory.
   Result<std::vector<ScriptStep>> told_steps();
 
   /// What is on the disk now. Threads  the clay's.
@@ -196,7 +196,7 @@ class Session {
 
   /// Saves what is not saved and removes journal, autosave and lock, or leaves of these what undo
   /// needs (SessionOptions::keeps_history); the session is over.
-  /// Errors  as save; the session then goes on.
+  /// Errors  as save; the session then goes on. Files that stay behind the save are no error.
   Result<void> close();
 
   /// Forgets every step since open or create and leaves the files as they were then; the session is
