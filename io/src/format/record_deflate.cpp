@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kLeastMatch = 3;
 constexpr std::size_t kMostMatch = 258;
+constexpr std::size_t kFarthestMatch = 32768;
 constexpr std::size_t kEndOfBlock = 256;
 constexpr int kLongestWord = 15;       // of a code
 constexpr int kLongestLengthWord = 7;  // of the code for lengths of words
@@ -269,14 +270,14 @@ void RecordDeflate::clear() {
 }
 
 void RecordDeflate::end_field(std::size_t n, std::size_t end) {
-  assert(end >= size_ && end - size_ <= kLongestField);
+  assert(end >= size_);
   Field& before = before_[n];
   const char* const text = text_.data();
   const std::size_t size = end - size_;
   const std::size_t equal =
-      equal_bytes(text + size_, text + before.at, std::min(size, before.size));
+      equal_bytes(text + size_, text + before.at, std::min({size, before.size, kMostMatch}));
   std::size_t matched = 0;
-  if (equal >= kLeastMatch) {
+  if (equal >= kLeastMatch && size_ - before.at <= kFarthestMatch) {
     matched = equal;
     add_match(equal, size_ - before.at, is_whole_);
   }
@@ -291,7 +292,7 @@ void RecordDeflate::end_field(std::size_t n, std::size_t end) {
 
 /// One that goes on with the one before is part of it.
 void RecordDeflate::add_match(std::size_t length, std::size_t distance, bool follows_at_once) {
-  assert(distance > 0 && distance <= 32768);
+  assert(distance > 0 && distance <= kFarthestMatch);
   if (follows_at_once) {
     Run& last = runs_.back();
     const std::size_t joined = last.length + length;

@@ -246,9 +246,14 @@ CollapsedWithin CollapseRun::run_within(const TriangleMesh& surface, const Bound
   done.is_proven = keeper.settle(rules, pace.part(0.75, 0.95));
   triangles_ = keeper.triangles();
   if (done.is_proven && triangles_ > enough_) {
-    // Where something was taken back more is left to do.
+    // Where something was taken back more is left to do. What is proven stands where that fails.
+    done.has_folds = keeper.folds();
+    done.collapsed = collapsed();
     advance({0, 0.52, rules, 4096}, pace.part(0.95, 0.96));
-    done.is_proven = keeper.settle(rules, pace.part(0.96, 1.0));
+    if (!keeper.settle(rules, pace.part(0.96, 1.0))) {
+      done.tries = 1 + keeper.most_rounds();
+      return done;
+    }
     triangles_ = keeper.triangles();
   }
   done.has_folds = keeper.folds();
@@ -284,7 +289,8 @@ Result<CollapsedWithin> collapse_within(const TriangleMesh& surface, const Decim
   };
   Result<CollapsedWithin> made = run(false);
   // Rarely something that looked free was not: then nothing is, and all falls back on the surface.
-  return made && !made.value().is_proven ? run(true) : std::move(made);
+  const bool is_good = !made || (made.value().is_proven && !made.value().has_folds);
+  return is_good ? std::move(made) : run(true);
 }
 
 }  // namespace argil::mesh

@@ -28,7 +28,7 @@ struct CollapsedWithin {
   Collapsed collapsed;
   int tries = 1;           ///< of the place that was tried most often
   bool is_proven = false;  ///< every part of it and of the field lies within the bound
-  bool has_folds = false;  ///< it has some that the surface had, rounded to floats
+  bool has_folds = false;  ///< it has some that the surface, rounded to floats, had
 };
 
 /// As collapse_edges, and fits what is left, within the bound that `options` give and to a count

@@ -100,6 +100,24 @@ TEST(RecordDeflate, KeepsToTheLongestWordOfTheFormat) {
   EXPECT_EQ(unpacked(records.packed()), letters);
 }
 
+/// A match reaches back 32 768 bytes at most, and 258 is its longest.
+TEST(RecordDeflate, WritesFieldsAnewThatAreTooFarBackOrLong) {
+  const std::string longest(1000, 'x');
+  RecordDeflate records;
+  std::string text;
+  const auto add = [&](std::size_t n, const std::string& field) {
+    records.field(n, field);
+    text += field;
+  };
+  add(0, "the first of all");
+  for (int i = 0; i < 2000; ++i) add(1, "some text of " + std::to_string(i * 7919));
+  ASSERT_GT(text.size(), 32768U);
+  add(0, "the first of all");
+  for (int i = 0; i < 3; ++i) add(2, longest);
+  EXPECT_EQ(records.text(), text);
+  EXPECT_EQ(unpacked(records.packed()), text);
+}
+
 TEST(RecordDeflate, OfNothingIsABlockOfNothing) {
   RecordDeflate records;
   EXPECT_EQ(unpacked(records.packed()), "");
