@@ -153,8 +153,8 @@ class Sculpture {
   /// At most: a clay may have forgotten what lies farthest.
   int redo_depth();
 
-  /// Takes over what `other` can take back and repeat, which is the same sculpture made anew from an
-  /// earlier state: equal hash() (asserts: as many pieces of the same names), no open stroke of
+  /// Takes over what `other` can take back and repeat, which is the same sculpture made anew from
+  /// an earlier state: equal hash() (asserts: as many pieces of the same names), no open stroke of
   /// either (assert). The own history is forgotten; clays and their surfaces stay as they are.
   /// Throws bad_alloc with nothing changed. Cost  none that grows with the clay.
   void take_history(Sculpture&& other);
