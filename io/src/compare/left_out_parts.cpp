@@ -19,26 +19,74 @@ namespace {
 /// as where something is less than a voxel, it is 0.02 from the ends at least (docs/surface.md).
 constexpr double kAtEdge = 0.03;
 
-/// Points, to be asked for the nearest.
-class SortedPoints {
+/// Points, to be asked for the nearest: halved by a plane across x, y and z in turn, wherever they
+/// lie. J. L. Bentley, Multidimensional Binary Search Trees (1975), without pointers.
+class PointTree {
  public:
-  explicit SortedPoints(std::vector<Vec3> points) : points_(std::move(points)) {
-    std::sort(points_.begin(), points_.end(),
-              [](const Vec3& a, const Vec3& b) { return a.x < b.x; });
+  explicit PointTree(std::vector<Vec3> points) : points_(std::move(points)) {
+    halve(0, points_.size(), 0);
   }
-  /// How far the nearest is; `reach` or more where none is nearer.
+  /// How far the nearest is; `reach` where none is nearer.
   double distance(const Vec3& at, double reach) const {
     double least = reach;
-    const auto before = [](const Vec3& p, double x) { return p.x < x; };
-    auto p = std::lower_bound(points_.begin(), points_.end(), at.x - reach, before);
-    for (; p != points_.end() && p->x <= at.x + reach; ++p)
-      least = std::min(least, length(*p - at));
+    look(0, points_.size(), 0, at, least);
     return least;
   }
 
  private:
+  /// The middle of each range separates its halves.
+  static std::size_t middle(std::size_t begin, std::size_t end) {
+    return begin + (end - begin) / 2;
+  }
+
+  void halve(std::size_t begin, std::size_t end, std::size_t axis) {
+    if (end - begin < 2) return;
+    const std::size_t at = middle(begin, end);
+    const auto place = [&](std::size_t n) {
+      return points_.begin() + static_cast<std::ptrdiff_t>(n);
+    };
+    std::nth_element(place(begin), place(at), place(end),
+                     [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+    halve(begin, at, (axis + 1) % 3);
+    halve(at + 1, end, (axis + 1) % 3);
+  }
+  void look(std::size_t begin, std::size_t end, std::size_t axis, const Vec3& at,
+            double& least) const {
+    if (begin == end) return;
+    const std::size_t split = middle(begin, end);
+    least = std::min(least, length(points_[split] - at));
+    const double beyond = at[axis] - points_[split][axis];
+    const std::size_t next = (axis + 1) % 3;
+    const auto look_below = [&] { look(begin, split, next, at, least); };
+    const auto look_above = [&] { look(split + 1, end, next, at, least); };
+    if (beyond < 0.0) {
+      look_below();
+      if (-beyond < least) look_above();
+    } else {
+      look_above();
+      if (beyond < least) look_below();
+    }
+  }
+
   std::vector<Vec3> points_;
 };
+
+/// Those of the points that have one of the tree within reach, in their order. Throws Interrupted.
+std::vector<Vec3> near(const PointTree& tree, const std::vector<Vec3>& points, double reach,
+                       const Pace& pace) {
+  std::vector<std::vector<Vec3>> blocks(block_count(points.size()));
+  in_blocks(points.size(), pace, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      if (tree.distance(points[n], reach) < reach)
+        blocks[begin / kDistanceBlock].push_back(points[n]);
+    }
+  });
+  std::vector<Vec3> found;
+  for (const std::vector<Vec3>& block : blocks) {
+    found.insert(found.end(), block.begin(), block.end());
+  }
+  return found;
+}
 
 /// Calls `use(p)` with the place of phi = 0 on each edge of a cell that it passes through.
 template <class Use>
@@ -149,15 +197,11 @@ LeftOutParts::Boxes LeftOutParts::Pieces::at(const Vec3& place) const {
 LeftOutParts::LeftOutParts(const TriangleMesh& surface, const TriangleMesh& left_out,
                            const std::vector<SurfaceCell>& cells, double voxel_mm,
                            const Pace& pace) {
-  const SortedPoints left_out_vertices(left_out.positions);
+  const PointTree left_out_vertices(left_out.positions);
   std::int8_t coarsest = 0;
   for (const SurfaceCell& cell : cells) coarsest = std::max(coarsest, cell.level);
   const double widest = 2.0 * kAtEdge * std::ldexp(voxel_mm, coarsest);
-  std::vector<Vec3> near;
-  for (const Vec3& p : surface.positions) {
-    if (left_out_vertices.distance(p, widest) < widest) near.push_back(p);
-  }
-  const SortedPoints kept_vertices(std::move(near));
+  const PointTree kept_vertices(near(left_out_vertices, surface.positions, widest, pace));
   std::vector<std::vector<Mixed>> blocks(block_count(cells.size()));
   in_blocks(cells.size(), pace, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {

@@ -25,7 +25,9 @@ namespace argil::io {
 ///
 /// Units        places within a cell as fractions of it.
 /// Threads      any, once made.
-/// Cost         linear in the surface; 0.2 ms and 1 kB for each cell that has both.
+/// Cost         the surface's size times the logarithm of how many vertices were left out; 0.2 ms
+/// and
+///              1 kB for each cell that has both.
 class LeftOutParts {
  public:
   /// `cells` of the surface without what was left out. Throws Interrupted.

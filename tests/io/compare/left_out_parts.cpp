@@ -74,6 +74,24 @@ TEST(LeftOutParts, TellsASpeckFromWhatIsKeptInTheSameCell) {
   EXPECT_FALSE(parts.has_all(scene.both, {0.5, 0.0, 0.0}, 0.25));
 }
 
+TEST(LeftOutParts, TellsItAmongManySpecksInOnePlane) {
+  const SpeckAboveCut scene;
+  // Specks far away, all of them as far along x as the one in the cell.
+  TriangleMesh many = scene.left_out;
+  for (int n = 0; n < 100'000; ++n) {
+    many.positions.push_back({kSpeckVoxelMm, 100.0 + 0.1 * (n % 317), 200.0 + 0.1 * (n / 317)});
+  }
+  const LeftOutParts one(scene.surface, scene.left_out, scene.cells, kSpeckVoxelMm, scene.pace);
+  const LeftOutParts all(scene.surface, many, scene.cells, kSpeckVoxelMm, scene.pace);
+  for (std::uint32_t c = 0; c < scene.cells.size(); ++c) {
+    for (int n = 0; n < 8; ++n) {
+      const Vec3 low{0.5 * (n & 1), 0.5 * (n >> 1 & 1), 0.5 * (n >> 2)};
+      ASSERT_EQ(one.has_all(c, low, 0.5), all.has_all(c, low, 0.5)) << c << ", " << n;
+    }
+  }
+  EXPECT_TRUE(all.has_all(scene.both, {0.5, 0.5, 0.5}, 0.5));
+}
+
 /// The nearest of all triangles.
 class AllTriangles final : public mesh::NearTriangles {
  public:

@@ -29,13 +29,21 @@ void draw_kept(const UiState& ui, const StepNames& steps, DocumentThread& docume
   const bool may_forget =
       steps.kept.steps > 0 && !ui.task.is_running && !ui.clay.is_changed && !ui.clay.is_untitled;
   ImGui::BeginDisabled(!may_forget);
-  if (ImGui::SmallButton("Forget")) document.send(ForgetHistory{});
+  if (ImGui::SmallButton("Forget...")) ImGui::OpenPopup("forget");
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
     ImGui::SetTooltip("Drops all steps, also those that the disk keeps.\nSave first.");
   }
   ImGui::SameLine();
   ImGui::TextUnformatted(words_of_kept(steps).c_str());
+  // It cannot be taken back; a click beside it, or Esc, keeps them.
+  if (!ImGui::BeginPopup("forget")) return;
+  ImGui::TextUnformatted("No undo any more, the clay stays.");
+  if (button("Forget all steps") && may_forget) {
+    document.send(ForgetHistory{});
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
 }
 
 }  // namespace

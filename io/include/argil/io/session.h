@@ -78,7 +78,8 @@ struct SessionOptions {
   bool keeps_history = false;
 
   /// When it has more than so many steps at its end, or journal and solids have more bytes, the
-  /// oldest go: half of it is left, or what memory can take back; at twice as many at the latest.
+  /// oldest go at close(): half of it is left, or what memory can take back; of a session that
+  /// went on with an older one perhaps only its own steps, and none where no cut fits.
   /// A step is repeated in the time it took the first time, without the hand's: 500 strokes are
   /// some 20 s at the first undo. 500 strokes of 10 s, by a pen that tells 100 samples a second,
   /// are 50 MB (bench_history).
