@@ -64,6 +64,7 @@ class Watched {
       stop(done.error().message);
     thread_.look(camera_.display_view());
     thread_.send(viewer::OpenFile{folder_ / "p.vdb"});
+    while (!thread_.is_idle()) take();
     settle();
   }
 
@@ -97,10 +98,15 @@ class Watched {
     if (!news.empty()) draw();
     return !news.empty();
   }
+  /// While a large tool is held its preview keeps the thread at work: no news for long is the end.
+  /// What is shown then may still be the preview, so that only the last column is of the clay.
   void settle() {
+    constexpr double kQuietMs = 300.0;
+    double last_ms = wall_ms();
     do {
-      if (!take()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } while (!thread_.is_idle());
+      if (take()) last_ms = wall_ms();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (!thread_.is_idle() && wall_ms() < last_ms + kQuietMs);
   }
   void draw() {
     viewer::Picture picture;
@@ -139,23 +145,20 @@ void stroke(Watched& window, Action action, const char* name, double radius_mm, 
   tool.radii_mm = {radius_mm, radius_mm, radius_mm};
   tool.strength = strength;
   std::vector<double> percent;
-  std::vector<double> whole_ms;
   window.thread().send(viewer::BeginStroke{tool, {}});
   for (int n = 0; n < kDabs; ++n) {
     const double turn = 0.03 * n - 0.36;
     const Vec3 place = kBallMm * Vec3{std::sin(turn), -std::cos(turn), 0.1};
-    const double start = wall_ms();
     window.thread().send(viewer::ExtendStroke{{{0.1 * n, place, {}, 1.0}}, 0.0});
     const Image then = window.after(kAfterMs);
     const Image last = window.settled();
-    whole_ms.push_back(wall_ms() - start);
     percent.push_back(differing_percent(then, last));
   }
   window.thread().send(viewer::EndStroke{});
   const Image then = window.after(kAfterMs);
   const double at_end = differing_percent(then, window.settled());
-  std::printf("| %s, %.1f mm | %.3f | %.3f | %.3f | %.0f |\n", name, radius_mm,
-              quantile(percent, 0.5), quantile(percent, 1.0), at_end, quantile(whole_ms, 1.0));
+  std::printf("| %s, %.1f mm | %.3f | %.3f | %.3f |\n", name, radius_mm, quantile(percent, 0.5),
+              quantile(percent, 1.0), at_end);
   std::fflush(stdout);
 }
 
@@ -168,8 +171,7 @@ int main() {
   Watched window;
   std::printf(
       "Percent of all pixels that differ by more than %d of 255, %.0f ms after a dab; %d dabs.\n\n"
-      "| tool | median | worst | after the stroke's end | all done after ms, at most |\n"
-      "|---|---|---|---|---|\n",
+      "| tool | median | worst | after the stroke's end |\n|---|---|---|---|\n",
       kStepsSeen, kAfterMs, kDabs);
   for (const double radius : {1.0, 3.0, 5.0, 8.0}) {
     stroke(window, Action::inflate, "Draw", radius, 0.4);
