@@ -18,6 +18,7 @@
 #include "argil/io/export.h"
 
 #include "bench/clock.h"
+#include "bench/memory.h"
 #include "support/bumpy_clay.h"
 
 namespace argil::bench {
@@ -26,17 +27,6 @@ namespace {
 constexpr double kVoxelMm = 0.1;
 /// Of the surface of a ball, per voxel^2.
 constexpr double kTrianglesPerSquareVoxel = 3.0;
-
-/// A figure of /proc/self/status, in MB.
-double status_mb(std::string_view name) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.compare(0, name.size(), name) == 0) {
-      return std::atof(line.c_str() + name.size() + 1) / 1024.0;
-    }
-  }
-  return 0.0;
-}
 
 /// From now on VmHWM is the most since now.
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }

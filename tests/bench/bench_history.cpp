@@ -9,17 +9,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <random>
 #include <string>
 #include <utility>
 
-#include <malloc.h>
-
 #include "argil/io/session.h"
 
 #include "bench/clock.h"
+#include "bench/memory.h"
 #include "support/bumpy_clay.h"
 #include "support/scratch.h"
 
@@ -44,22 +42,6 @@ T take(Result<T> result) {
 
 void check(const Result<void>& result) {
   if (!result) fail(result.error().message);
-}
-
-/// A line of /proc/self/status, such as VmHWM.
-double status_mb(const std::string& name) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double kb = 0.0;
-    if (word == name + ":" && status >> kb) return kb / 1024.0;
-  }
-  return 0.0;
-}
-
-double begin_peak() {
-  ::malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << 5;
-  return status_mb("VmRSS");
 }
 
 io::SessionOptions keeping() {
@@ -116,11 +98,11 @@ void row(const fs::path& project, const std::string& name) {
   const double open = open_cpu_s(project);
   io::Session session = take(io::Session::open(project, keeping()));
   const io::HistorySize size = session.history_size();
-  const double before_mb = begin_peak();
+  const double before_mb = bench::begin_peak();
   const double begin = bench::process_cpu_ms();
   check(session.deepen());
   const double deepened = bench::process_cpu_ms();
-  const double peak_mb = status_mb("VmHWM") - before_mb;
+  const double peak_mb = bench::status_mb("VmHWM") - before_mb;
   const int depth = session.sculpture().undo_depth();
   check(session.close());
   std::printf("| %s | %zu | %.1f | %.2f | %.2f | %d | %.0f | %.2f |\n", name.c_str(), size.steps,

@@ -15,7 +15,6 @@
 #include <thread>
 #include <vector>
 
-#include <malloc.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
@@ -23,6 +22,7 @@
 #include "argil/io/project_file.h"
 
 #include "bench/clock.h"
+#include "bench/memory.h"
 #include "clay/clay_access.h"
 #include "document/document_thread.h"
 #include "field/nesting.h"
@@ -49,32 +49,15 @@ struct Took {
   std::exit(1);  // NOLINT(concurrency-mt-unsafe): nothing else runs
 }
 
-/// A line of /proc/self/status, such as VmHWM.
-double status_mb(const std::string& name) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double kb = 0.0;
-    if (word == name + ":" && status >> kb) return kb / 1024.0;
-  }
-  return 0.0;
-}
-
-/// What the process has, and its peak from now on: free memory is given back first.
-double begin_peak() {
-  ::malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << 5;
-  return status_mb("VmRSS");
-}
-
 /// What `work` returns is freed after the clocks are read.
 template <class Work>
 Took once(const Work& work) {
-  const double before = begin_peak();
+  const double before = bench::begin_peak();
   const double wall = bench::wall_ms();
   const double cpu = bench::process_cpu_ms();
   [[maybe_unused]] const auto made = work();
   return {1e-3 * (bench::process_cpu_ms() - cpu), 1e-3 * (bench::wall_ms() - wall),
-          status_mb("VmHWM") - before};
+          bench::status_mb("VmHWM") - before};
 }
 
 template <class Work>

@@ -2,6 +2,7 @@
 #include "format/zip_write.h"
 
 #include <array>
+#include <cassert>
 #include <limits>
 #include <new>
 
@@ -40,6 +41,24 @@ class Record {
   std::string data_;
 };
 
+std::unique_ptr<z_stream_s> begun_stream() {
+  auto stream = std::make_unique<z_stream_s>();
+  if (deflateInit2(stream.get(), kLevel, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  return stream;
+}
+
+void restart(z_stream_s& stream) {
+  deflateReset(&stream);
+  deflateTune(&stream, kGoodMatch, kNotedMatch, kNiceMatch, kChain);
+}
+
+/// zlib does not write through next_in; its type only lacks the const.
+Bytef* input_of(std::string_view data) noexcept {
+  return reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
+}
+
 constexpr unsigned kVersion = 20;  // deflate
 constexpr unsigned kDeflated = 8;
 
@@ -50,12 +69,23 @@ std::uint32_t crc_of(std::string_view data) noexcept {
       crc32_z(0, reinterpret_cast<const Bytef*>(data.data()), data.size()));
 }
 
-ZipWriter::ZipWriter(OutputFile& out)
-    : out_(out), stream_(std::make_unique<z_stream_s>()), packed_(kPackedChunk) {
-  if (deflateInit2(stream_.get(), kLevel, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
-    throw std::bad_alloc();
-  }
+Deflater::Deflater() : stream_(begun_stream()) {}
+Deflater::~Deflater() { deflateEnd(stream_.get()); }
+
+std::string_view Deflater::packed(std::string_view text) {
+  restart(*stream_);
+  // The bound is of a stream's end; what ends at a byte and goes on takes five bytes more.
+  packed_.resize(deflateBound(stream_.get(), static_cast<uLong>(text.size())) + 5);
+  stream_->next_in = input_of(text);
+  stream_->avail_in = static_cast<uInt>(text.size());
+  stream_->next_out = reinterpret_cast<Bytef*>(packed_.data());
+  stream_->avail_out = static_cast<uInt>(packed_.size());
+  deflate(stream_.get(), Z_SYNC_FLUSH);
+  assert(stream_->avail_in == 0 && stream_->avail_out > 0);
+  return {packed_.data(), packed_.size() - stream_->avail_out};
 }
+
+ZipWriter::ZipWriter(OutputFile& out) : out_(out), stream_(begun_stream()), packed_(kPackedChunk) {}
 
 ZipWriter::~ZipWriter() { deflateEnd(stream_.get()); }
 
@@ -68,8 +98,7 @@ void ZipWriter::begin(const std::string& name) {
   // Local header (APPNOTE 4.3.7).
   out_.write(Record{}.u32(0x04034b50).u16(kVersion).u16(0).u16(kDeflated).u32(kDosEpoch).data());
   out_.write(Record{}.u32(0).u32(0).u32(0).u16(name.size()).u16(0).text(name).data());
-  deflateReset(stream_.get());
-  deflateTune(stream_.get(), kGoodMatch, kNotedMatch, kNiceMatch, kChain);
+  restart(*stream_);
   is_at_byte_ = true;
 }
 
@@ -84,8 +113,7 @@ void ZipWriter::deflate_input(int flush) {
 
 void ZipWriter::write(std::string_view data) {
   Entry& entry = entries_.back();
-  // zlib does not write through next_in; its type only lacks the const.
-  auto* const bytes = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
+  Bytef* const bytes = input_of(data);
   entry.crc = static_cast<std::uint32_t>(crc32_z(entry.crc, bytes, data.size()));
   entry.bytes += data.size();
   stream_->next_in = bytes;

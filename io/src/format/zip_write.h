@@ -18,6 +18,24 @@ namespace argil::io {
 /// The CRC-32 of a ZIP archive.
 std::uint32_t crc_of(std::string_view data) noexcept;
 
+/// Deflates texts, each by itself, for ZipWriter::write_deflated.
+///
+/// Threads  one; others may deflate theirs beside it.
+class Deflater {
+ public:
+  Deflater();
+  ~Deflater();
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  /// Until the next call. The same text gives the same bytes.
+  std::string_view packed(std::string_view text);
+
+ private:
+  std::unique_ptr<z_stream_s> stream_;
+  std::string packed_;
+};
+
 /// Writes a ZIP archive of deflated entries, one after the other. Every entry is dated 1 January
 /// 1980, so that the same content gives the same bytes. Disk errors stay in the OutputFile.
 class ZipWriter {

@@ -11,7 +11,6 @@
 
 #include "argil/mesh/rounding.h"
 
-#include "format/record_deflate.h"
 #include "format/xml_text.h"
 #include "format/zip_write.h"
 #include "mesh_format/chunks.h"
@@ -59,7 +58,6 @@ class ModelWriter {
   Chunks& chunks_;
   ZipWriter& zip_;
   const ThreemfModel& model_;
-  RecordDeflate few_;
   std::map<Srgb, std::size_t> colors_;  ///< the place of each in its group
   std::size_t last_id_ = 0;
   std::size_t first_object_ = 0;
@@ -103,30 +101,26 @@ void ModelWriter::begin_object(const std::string& name) {
 
 /// A piece of the text, deflated by itself.
 struct DeflatedPiece {
-  RecordDeflate records;
+  Piece text;
+  Deflater deflater;
   std::string_view packed;
   std::uint32_t crc = 0;
 };
 
-/// As write_each. A few are text like any other: codes of their own would take more than they gain.
+/// As write_each. A few are text like any other: by themselves they would take more.
 template <class Items, class One>
 Result<void> ModelWriter::write_records(const Items& items, const One& one) {
   constexpr std::size_t kFew = 512;
-  if (items.size() < kFew) {
-    few_.clear();
-    for (const auto& item : items) one(item, few_);
-    chunks_.text(few_.text());
-    return chunks_.step(items.size()) ? Result<void>() : writing_stopped();
-  }
+  if (items.size() < kFew) return write_each(chunks_, items, one);
   chunks_.flush();
   const auto make = [&](const ItemRange& range, DeflatedPiece& piece) {
-    piece.records.clear();
-    for (std::size_t i = range.begin; i < range.end; ++i) one(items[i], piece.records);
-    piece.packed = piece.records.packed();
-    piece.crc = crc_of(piece.records.text());
+    piece.text.clear();
+    for (std::size_t i = range.begin; i < range.end; ++i) one(items[i], piece.text);
+    piece.packed = piece.deflater.packed(piece.text.all());
+    piece.crc = crc_of(piece.text.all());
   };
   const auto use = [&](const ItemRange& range, const DeflatedPiece& piece) {
-    zip_.write_deflated(piece.packed, piece.records.text().size(), piece.crc);
+    zip_.write_deflated(piece.packed, piece.text.all().size(), piece.crc);
     return chunks_.step_past(range.end - range.begin);
   };
   if (!make_in_order<DeflatedPiece>(items.size(), make, use)) return writing_stopped();
@@ -139,21 +133,16 @@ Result<void> ModelWriter::write_mesh(const ThreemfObject& object) {
     chunks_.text(" pid=\"1\" pindex=\"").number(colors_.at(*object.color)).text("\"");
   }
   chunks_.text(">\n   <mesh>\n    <vertices>\n");
-  Result<void> written =
-      write_records(object.mesh->positions, [](const Vec3& p, RecordDeflate& records) {
-        const auto [x, y, z] = mesh::floats_of(p);
-        records.field(0, "<vertex x=\"", x);
-        records.field(1, "\" y=\"", y);
-        records.field(2, "\" z=\"", z);
-        records.field(3, "\"/>\n");
-      });
+  Result<void> written = write_records(object.mesh->positions, [](const Vec3& p, Piece& to) {
+    const auto [x, y, z] = mesh::floats_of(p);
+    to.text("<vertex x=\"").number(x).text("\" y=\"").number(y).text("\" z=\"").number(z);
+    to.text("\"/>\n");
+  });
   if (!written) return written;
   chunks_.text("    </vertices>\n    <triangles>\n");
-  written = write_records(object.mesh->triangles, [](const Triangle& t, RecordDeflate& records) {
-    records.field(0, "<triangle v1=\"", t[0]);
-    records.field(1, "\" v2=\"", t[1]);
-    records.field(2, "\" v3=\"", t[2]);
-    records.field(3, "\"/>\n");
+  written = write_records(object.mesh->triangles, [](const Triangle& t, Piece& to) {
+    to.text("<triangle v1=\"").number(t[0]).text("\" v2=\"").number(t[1]).text("\" v3=\"");
+    to.number(t[2]).text("\"/>\n");
   });
   chunks_.text("    </triangles>\n   </mesh>\n  </object>\n");
   return written;

@@ -92,7 +92,7 @@ struct Session::State {
   Result<void> deepen(const Progress& progress);
   void weigh_history();
   Result<Journal> told();
-  const fs::path& base() const;
+  const std::filesystem::path& base() const;
   Result<WrittenAs> write_as(const SessionFiles& to);
   void go_on(const WrittenAs& written, std::size_t done_steps);
   Result<void> leave(bool removes_created);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <random>
 #include <set>
@@ -14,9 +13,10 @@
 #include <gtest/gtest.h>
 
 #include "argil/engine/field_sampler.h"
-#include "argil/engine/mesh_distance.h"
 #include "argil/engine/surface.h"
 #include "argil/mesh/triangle_geometry.h"
+
+#include "io/compare/nearest_triangle.h"
 
 namespace argil::io {
 namespace {
@@ -34,21 +34,6 @@ TriangleMesh scaled(TriangleMesh mesh, double by) {
   for (Vec3& p : mesh.positions) p *= by;
   return mesh;
 }
-
-/// The nearest of all triangles.
-class NearestTriangle final : public mesh::NearTriangles {
- public:
-  explicit NearestTriangle(const TriangleMesh& mesh) : distance_(mesh.positions, mesh.triangles) {}
-  double distance_mm(const Vec3& p, double /*enough_mm*/) override {
-    return distance_.closest(p, std::numeric_limits<double>::infinity()).distance;
-  }
-  double distance_far_mm(const Vec3& p, double enough_mm) override {
-    return distance_mm(p, enough_mm);
-  }
-
- private:
-  MeshDistance distance_;
-};
 
 struct Share {
   double cells = 0.0;

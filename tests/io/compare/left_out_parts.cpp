@@ -5,17 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "argil/engine/mesh_distance.h"
 #include "argil/engine/surface.h"
 #include "argil/mesh/small_components.h"
 
 #include "compare/block_proof.h"
+#include "io/compare/nearest_triangle.h"
 
 namespace argil::io {
 namespace {
@@ -92,31 +91,16 @@ TEST(LeftOutParts, TellsItAmongManySpecksInOnePlane) {
   EXPECT_TRUE(all.has_all(scene.both, {0.5, 0.5, 0.5}, 0.5));
 }
 
-/// The nearest of all triangles.
-class AllTriangles final : public mesh::NearTriangles {
- public:
-  explicit AllTriangles(const TriangleMesh& mesh) : distance_(mesh.positions, mesh.triangles) {}
-  double distance_mm(const Vec3& p, double /*enough_mm*/) override {
-    return distance_.closest(p, std::numeric_limits<double>::infinity()).distance;
-  }
-  double distance_far_mm(const Vec3& p, double enough_mm) override {
-    return distance_mm(p, enough_mm);
-  }
-
- private:
-  MeshDistance distance_;
-};
-
 TEST(LeftOutParts, ExcuseASpeckAndNothingElseOfItsCell) {
   const SpeckAboveCut scene;
-  AllTriangles as_extracted(scene.surface);
+  NearestTriangle as_extracted(scene.surface);
   const double bound = 0.25 * kSpeckVoxelMm;
   EXPECT_TRUE(scene.is_near(bound, scene.left_out, as_extracted));
   EXPECT_FALSE(scene.is_near(bound, {}, as_extracted));
   // The cut is 0.6 voxel off, beyond the bound. The middle of the cell is nearer to the speck.
   TriangleMesh lower = scene.surface;
   for (Vec3& p : lower.positions) p -= 0.6 * kSpeckVoxelMm / std::sqrt(3.0) * Vec3{1, 1, 1};
-  AllTriangles off(lower);
+  NearestTriangle off(lower);
   EXPECT_FALSE(scene.is_near(bound, scene.left_out, off));
 }
 

@@ -13,6 +13,7 @@
 
 #include "argil/io/project_file.h"
 
+#include "readers/project/small_session.h"
 #include "support/built.h"
 #include "support/effort.h"
 #include "support/scratch.h"
@@ -30,19 +31,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-Clay start() { return Clay::ball(6.0, {test::effort(0.5, 0.4), 0.1}).value(); }
-
-Stroke stroke_number(unsigned n) {
-  std::mt19937 random(n);
-  return random_dab(random, 6.0);
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
 /// A folder with piece.vdb, and sessions that end as after a kill when they go out of scope.
 class SessionFolder : public testing::Test {
  protected:
@@ -55,7 +43,7 @@ class SessionFolder : public testing::Test {
   }
 
   Session create() const {
-    auto session = Session::create(file(), start(), no_autosave());
+    auto session = Session::create(file(), small_clay(), no_autosave());
     EXPECT_TRUE(session) << session.error().message;
     return std::move(session).value();
   }
@@ -71,14 +59,14 @@ class SessionFolder : public testing::Test {
     session.record(step);
   }
   static void sculpt(Session& session, unsigned first, unsigned count) {
-    for (unsigned n = first; n < first + count; ++n) sculpt(session, stroke_number(n));
+    for (unsigned n = first; n < first + count; ++n) sculpt(session, small_stroke(n));
   }
   /// A clay with strokes 0 to `count - 1` on the start.
   static std::uint64_t hash_after(unsigned count) {
-    static Clay clay = start();
+    static Clay clay = small_clay();
     static std::vector<std::uint64_t> hashes{clay.hash()};
     while (hashes.size() <= count) {
-      EXPECT_TRUE(clay.apply(stroke_number(static_cast<unsigned>(hashes.size()) - 1)));
+      EXPECT_TRUE(clay.apply(small_stroke(static_cast<unsigned>(hashes.size()) - 1)));
       hashes.push_back(clay.hash());
     }
     return hashes[count];
@@ -103,7 +91,7 @@ TEST_F(SessionJournal, BringsEveryStrokeBackWithTheSameBits) {
   ASSERT_TRUE(opened) << opened.error().message;
   EXPECT_EQ(opened.value().sculpture.hash(), hash_after(4));
   EXPECT_EQ(opened.value().recovered_steps, 4);
-  EXPECT_THAT(joined(opened.value().notes), HasSubstr("'piece.vdb': recovered 4 strokes"));
+  EXPECT_THAT(lines_of(opened.value().notes), HasSubstr("'piece.vdb': recovered 4 strokes"));
   Session session = open();
   EXPECT_EQ(session.recovered_steps(), 4);
   sculpt(session, 4, 1);
@@ -119,7 +107,7 @@ TEST_F(SessionJournal, IsAScriptThatSculptsTheSame) {
   ASSERT_TRUE(session.save());
   const auto script = read_stroke_script(file("piece.journal.jsonl"));
   ASSERT_TRUE(script) << script.error().message;
-  Clay clay = start();
+  Clay clay = small_clay();
   for (const ScriptStep& step : script.value().steps) ASSERT_TRUE(apply_step(clay, step));
   EXPECT_EQ(clay.hash(), session.clay().hash());
 }
@@ -142,7 +130,7 @@ TEST_F(SessionJournal, LeavesOutALineThatWasCutOffAtAnyLength) {
   }
   fill(file("piece.journal.jsonl"), whole.substr(0, whole.size() - 5));
   Session session = open();
-  EXPECT_THAT(joined(session.notes()), HasSubstr("was cut off when the program ended"));
+  EXPECT_THAT(lines_of(session.notes()), HasSubstr("was cut off when the program ended"));
   sculpt(session, 1, 1);
   ASSERT_TRUE(session.flush());
   EXPECT_EQ(content_of(file("piece.journal.jsonl")), whole);
@@ -163,7 +151,7 @@ TEST_F(SessionJournal, KeepsADamagedOneAsideAndUsesWhatIsBefore) {
   {
     Session session = open();
     EXPECT_EQ(session.clay().hash(), hash_after(1));
-    EXPECT_THAT(joined(session.notes()),
+    EXPECT_THAT(lines_of(session.notes()),
                 AllOf(HasSubstr("piece.journal.jsonl:3: key 'xxh64' is"),
                       HasSubstr("is kept as 'piece.journal.jsonl.damaged-1'")));
     sculpt(session, 1, 1);
@@ -184,7 +172,7 @@ TEST_F(SessionJournal, OfAnotherProjectIsKeptAside) {
   ASSERT_TRUE(save_project(file(), other));
   const auto read = open_project(file());
   EXPECT_EQ(read.value().sculpture.hash(), other.hash());
-  EXPECT_THAT(joined(read.value().notes), HasSubstr("does not belong to 'piece.vdb'"));
+  EXPECT_THAT(lines_of(read.value().notes), HasSubstr("does not belong to 'piece.vdb'"));
   Session session = open();
   EXPECT_EQ(session.clay().hash(), other.hash());
   EXPECT_EQ(content_of(file("piece.journal.jsonl.foreign-1")), journal);
@@ -193,7 +181,7 @@ TEST_F(SessionJournal, OfAnotherProjectIsKeptAside) {
 }
 
 TEST_F(SessionJournal, NeverTakesAnotherFileForItsOwn) {
-  ASSERT_TRUE(save_project(file(), start()));
+  ASSERT_TRUE(save_project(file(), small_clay()));
   for (const char* text : {"my notes", "my notes\n", "{\"argil_strokes\":1}\n"}) {
     fill(file("piece.journal.jsonl"), text);
     { Session session = open(); }
@@ -210,12 +198,12 @@ TEST_F(SessionLock, NamesWhoHoldsTheProject) {
   EXPECT_EQ(second.error().kind, ErrorKind::bad_input);
   EXPECT_THAT(second.error().message,
               HasSubstr("'piece.vdb' is being sculpted by process " + std::to_string(::getpid())));
-  EXPECT_FALSE(replace_project(file(), start()));
+  EXPECT_FALSE(replace_project(file(), small_clay()));
   EXPECT_TRUE(open_project(file())) << "reading needs no lock";
 }
 
 TEST_F(SessionLock, OfAKilledProgramStopsNobody) {
-  ASSERT_TRUE(save_project(file(), start()));
+  ASSERT_TRUE(save_project(file(), small_clay()));
   int pipe[2] = {-1, -1};
   ASSERT_EQ(::pipe(pipe), 0);
   const pid_t child = test::spawn(test::session_child_program(),
@@ -354,7 +342,7 @@ TEST_F(SessionSaveAs, TakesAlongWhatStepsWorkWith) {
   std::uint64_t hash = 0;
   {
     Session session = create();
-    Stroke rod = stroke_number(0);
+    Stroke rod = small_stroke(0);
     rod.tool = {Action::add, Shape::mesh, {3.0, 1.5, 1.5}, 1.0};
     rod.tool.mesh = test::rod_tool(true);
     for (const Action action : {Action::add, Action::carve}) {
@@ -366,7 +354,7 @@ TEST_F(SessionSaveAs, TakesAlongWhatStepsWorkWith) {
     sculpt(session, HistoryStep::undo);
     sculpt(session, HistoryStep::redo);
     ASSERT_TRUE(session.flush());
-    EXPECT_THAT(joined(folder_.names()),
+    EXPECT_THAT(lines_of(folder_.names()),
                 AllOf(HasSubstr(".other.solid-"), testing::Not(HasSubstr(".piece.solid-"))));
   }
   EXPECT_EQ(open_project(file("other.vdb")).value().sculpture.hash(), hash);
@@ -386,7 +374,7 @@ TEST_F(SessionSaveAs, KeepsTheLeftStepsOfWhatItReplacesAndTouchesNoneInASession)
   }
   const auto saved = session.save_as(file("other.vdb"));
   ASSERT_TRUE(saved) << saved.error().message;
-  EXPECT_THAT(joined(saved.value().notes), HasSubstr("'other.journal.jsonl.replaced-1'"));
+  EXPECT_THAT(lines_of(saved.value().notes), HasSubstr("'other.journal.jsonl.replaced-1'"));
   EXPECT_EQ(load_project(file("other.vdb")).value().hash(), hash_after(1));
   EXPECT_TRUE(fs::exists(file()));
 }
@@ -400,7 +388,7 @@ TEST_F(SessionSaveAs, SavesWithoutUndoWhereTheStepsAreGone) {
     const auto saved = session.save_as(file("other.vdb"));
     ASSERT_TRUE(saved) << saved.error().message;
     EXPECT_FALSE(saved.value().keeps_undo);
-    EXPECT_THAT(joined(saved.value().notes), HasSubstr("undo ends at the save"));
+    EXPECT_THAT(lines_of(saved.value().notes), HasSubstr("undo ends at the save"));
     EXPECT_EQ(session.clay().undo_depth(), 0);
     EXPECT_EQ(session.clay().hash(), hash_after(3));
     sculpt(session, 3, 1);
@@ -427,7 +415,7 @@ TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {
   often.autosave_steps = 4;
   often.autosave_leaves = 10;  // so that a copy takes several steps
   {
-    auto session = Session::create(file(), start(), often);
+    auto session = Session::create(file(), small_clay(), often);
     ASSERT_TRUE(session) << session.error().message;
     for (unsigned n = 0; n < 400 && !fs::exists(file(".piece.autosave.vdb")); ++n) {
       sculpt(session.value(), n, 1);
@@ -449,7 +437,7 @@ TEST_F(SessionSave, AutosaveIsWhereARecoveryStarts) {
 }
 
 Stroke mask_stroke(unsigned n) {
-  Stroke stroke = stroke_number(n);
+  Stroke stroke = small_stroke(n);
   stroke.tool.action = Action::mask;
   stroke.tool.strength = n % 3 == 2 ? -0.7 : 0.7;
   return stroke;
@@ -461,7 +449,7 @@ TEST_F(SessionJournal, RepeatsWhatWasMaskedAndWhatThatHeld) {
     Session session = create();
     for (unsigned n = 0; n < 4; ++n) {
       sculpt(session, mask_stroke(n));
-      sculpt(session, stroke_number(50 + n));
+      sculpt(session, small_stroke(50 + n));
     }
     for (const MaskEdit edit : {MaskEdit::invert, MaskEdit::blur}) sculpt(session, edit);
     sculpt(session, 60, 2);
@@ -485,13 +473,13 @@ TEST_F(SessionDisk, GoesOnWhenFullAndCatchesUpWhenThereIsRoom) {
     GTEST_SKIP() << "mounting a small tmpfs needs root; SessionKillsSlow fills the disk without";
   }
   {
-    auto created = Session::create(disk / "piece.vdb", start(), no_autosave());
+    auto created = Session::create(disk / "piece.vdb", small_clay(), no_autosave());
     ASSERT_TRUE(created) << created.error().message;
     Session& session = created.value();
     sculpt(session, 0, 1);
     ASSERT_TRUE(session.flush());
     fill(disk / "filler", std::string(4 << 20, 'x'));  // as much of it as there is room for
-    Stroke lengthy = stroke_number(1);
+    Stroke lengthy = small_stroke(1);
     lengthy.samples.resize(2000, lengthy.samples.back());
     sculpt(session, lengthy);
     const auto full = session.flush();
@@ -499,7 +487,7 @@ TEST_F(SessionDisk, GoesOnWhenFullAndCatchesUpWhenThereIsRoom) {
     EXPECT_THAT(full.error().message, HasSubstr("free some space"));
     EXPECT_FALSE(session.problem());
     EXPECT_FALSE(session.save());
-    for (unsigned n = 2; n < 100; ++n) session.record(stroke_number(n));  // more than the queue
+    for (unsigned n = 2; n < 100; ++n) session.record(small_stroke(n));  // more than the queue
     EXPECT_FALSE(session.flush());
     fs::remove(disk / "filler");
     EXPECT_TRUE(session.flush());

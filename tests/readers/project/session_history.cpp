@@ -12,6 +12,7 @@
 #include "argil/io/project_file.h"
 #include "argil/io/session.h"
 
+#include "readers/project/small_session.h"
 #include "script/script_line.h"
 #include "support/effort.h"
 #include "support/scratch.h"
@@ -28,19 +29,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-Clay history_start() { return Clay::ball(6.0, {test::effort(0.5, 0.4), 0.1}).value(); }
-
-Stroke history_stroke(unsigned n) {
-  std::mt19937 random(100 + n);
-  return random_dab(random, 6.0);
-}
-
-std::string lines_of(const std::vector<std::string>& notes) {
-  std::string text;
-  for (const std::string& note : notes) text += note + "\n";
-  return text;
-}
-
 /// A folder with piece.vdb, whose sessions keep their history.
 class SessionHistory : public testing::Test {
  protected:
@@ -54,7 +42,7 @@ class SessionHistory : public testing::Test {
   }
 
   Session create(const SessionOptions& options = keeping()) const {
-    auto session = Session::create(file(), history_start(), options);
+    auto session = Session::create(file(), small_clay(), options);
     EXPECT_TRUE(session) << session.error().message;
     return std::move(session).value();
   }
@@ -73,7 +61,7 @@ class SessionHistory : public testing::Test {
     hashes_.push_back(session.sculpture().hash());
   }
   void sculpt(Session& session, unsigned first, unsigned count) {
-    for (unsigned n = first; n < first + count; ++n) sculpt(session, history_stroke(n));
+    for (unsigned n = first; n < first + count; ++n) sculpt(session, small_stroke(n));
   }
 
   /// A session that does a few things of each kind, and ends.
@@ -82,11 +70,11 @@ class SessionHistory : public testing::Test {
     sculpt(session, 0, 3);
     ASSERT_TRUE(session.save());
     sculpt(session, Operation(Cut{{0.0, 0.0, 4.0}, {0.0, 0.0, 1.0}, true}));
-    Stroke rod = history_stroke(9);
+    Stroke rod = small_stroke(9);
     rod.tool = {Action::add, Shape::mesh, {3.0, 1.5, 1.5}, 1.0};
     rod.tool.mesh = test::rod_tool(true);
     sculpt(session, rod);
-    Stroke mask = history_stroke(10);
+    Stroke mask = small_stroke(10);
     mask.tool.action = Action::mask;
     sculpt(session, mask);
     sculpt(session, MaskEdit::invert);
@@ -241,7 +229,7 @@ TEST_F(SessionHistory, OfAProjectThatAnotherProgramReplacedIsPutAside) {
 }
 
 TEST_F(SessionHistory, OfAProjectThatAnOlderCopyReplacedIsPutAside) {
-  ASSERT_TRUE(save_project(file("old.vdb"), history_start()));
+  ASSERT_TRUE(save_project(file("old.vdb"), small_clay()));
   work_and_close();
   for (int n = 0; n < 2; ++n) {
     // What it was before its first step, and then, by another session's end, before its last.
@@ -265,7 +253,7 @@ TEST_F(SessionHistory, OfAProjectThatAnOlderCopyReplacedIsPutAside) {
 }
 
 TEST_F(SessionHistory, ThatIsDamagedIsNotRepeatedOnAnOlderCopyEither) {
-  ASSERT_TRUE(save_project(file("old.vdb"), history_start()));
+  ASSERT_TRUE(save_project(file("old.vdb"), small_clay()));
   work_and_close();
   // The step with the rod cannot be read, nor what is behind it.
   for (const std::string& name : folder_.names()) {
@@ -449,9 +437,9 @@ TEST_F(SessionHistory, OfTheOneThatIsSavedOverGoes) {
   work_and_close();
   auto session = Session::create(file("new.vdb"), Clay::ball(5.0, {0.4, 0.1}).value(), keeping());
   ASSERT_TRUE(session);
-  const auto done = apply_step(session.value().sculpture(), history_stroke(3));
+  const auto done = apply_step(session.value().sculpture(), small_stroke(3));
   ASSERT_TRUE(done);
-  session.value().record(history_stroke(3));
+  session.value().record(small_stroke(3));
   const auto saved = session.value().save_as(file());
   ASSERT_TRUE(saved) << saved.error().message;
   EXPECT_THAT(saved.value().notes, ElementsAre());
@@ -600,7 +588,7 @@ TEST_F(SessionHistory, EndedWhileTheOldestGoHasTheOthers) {
 
 TEST_F(SessionHistory, OfTooManyBytesLosesTheOldest) {
   const auto long_stroke = [](unsigned n) {
-    Stroke stroke = history_stroke(n);
+    Stroke stroke = small_stroke(n);
     stroke.samples.resize(60, stroke.samples.back());
     return stroke;
   };

@@ -10,44 +10,17 @@
 
 #include "picture/piece_frame.h"
 #include "viewer/support/picture_alike.h"
-#include "viewer/support/window_run.h"
+#include "viewer/support/two_pieces.h"
 
 namespace argil {
 namespace {
-
-constexpr double kMeasuredVoxelMm = 0.5;
-
-std::string spot(const viewer::Camera::Pixel& pixel) {
-  return std::to_string(std::lround(pixel.x)) + " " + std::to_string(std::lround(pixel.y));
-}
 
 Vec3 vec_of(const nlohmann::json& numbers) {
   return {numbers.at(0).get<double>(), numbers.at(1).get<double>(), numbers.at(2).get<double>()};
 }
 
-/// A block, and a ball that stands turned on it.
-class ViewMeasureGl : public test::WindowTest {
+class ViewMeasureGl : public test::TwoPiecesTest {
  protected:
-  void SetUp() override {
-    test::WindowTest::SetUp();
-    if (IsSkipped()) return;
-    ClayOptions options;
-    options.voxel_mm = kMeasuredVoxelMm;
-    Sculpture sculpture(Clay::block({24.0, 20.0, 24.0}, options).value(), {"Body"});
-    AddPiece head;
-    head.look.name = "Head";
-    head.look.placement = kHead;
-    head.clay = std::make_shared<const Clay>(Clay::ball(9.0, options).value());
-    ASSERT_TRUE(sculpture.apply(head).ok());
-    ASSERT_TRUE(sculpture.apply(SelectPiece{"Body"}).ok());
-    ASSERT_TRUE(io::save_sculpture(folder_ / "s.vdb", sculpture).ok());
-    Box3 box = sculpture.clay(0).bounds_mm();
-    const Box3 other = viewer::placed(kHead, sculpture.clay(1).bounds_mm());
-    box.include(other.min);
-    box.include(other.max);
-    camera_ = first_camera(box);
-  }
-
   /// With the panels hidden, so that all of the picture can be clicked on.
   nlohmann::json measured(const std::string& script) {
     const test::WindowRun run =
@@ -60,8 +33,7 @@ class ViewMeasureGl : public test::WindowTest {
   }
 
   std::string click(const Vec3& place) const {
-    return "move " + spot(camera_.pixel_of(place)) +
-           "\npress left\nrelease left\nsettle\nframes 2\n";
+    return "move " + at(place) + "\npress left\nrelease left\nsettle\nframes 2\n";
   }
 
   /// Where the window's camera sees a plane under the whole pixel next to a place.
@@ -72,9 +44,6 @@ class ViewMeasureGl : public test::WindowTest {
     return ray.origin_mm +
            (place[axis] - ray.origin_mm[axis]) / ray.direction[axis] * ray.direction;
   }
-
-  const Placement kHead{{4.0, 0.0, 21.5}, normalized(Quat{0.9, 0.0, 0.4, 0.0})};
-  viewer::Camera camera_;
 };
 
 TEST_F(ViewMeasureGl, DistanceAngleAndThicknessAreThoseOfTheSolids) {
@@ -90,15 +59,15 @@ TEST_F(ViewMeasureGl, DistanceAngleAndThicknessAreThoseOfTheSolids) {
   const Vec3 b = on_plane(corner, 1);
   const Vec3 c = on_plane(side, 0);
   EXPECT_EQ(list[0].at("kind"), "distance");
-  EXPECT_NEAR(list[0].at("value").get<double>(), length(a - b), 0.01 * kMeasuredVoxelMm);
+  EXPECT_NEAR(list[0].at("value").get<double>(), length(a - b), 0.01 * kPieceVoxelMm);
   EXPECT_EQ(list[1].at("kind"), "angle");
   const double cosine = dot(normalized(a - b), normalized(c - b));
   EXPECT_NEAR(list[1].at("value").get<double>(), std::acos(cosine) * 180.0 / 3.14159265358979,
               0.02);
   EXPECT_EQ(list[2].at("kind"), "thickness");
-  EXPECT_NEAR(list[2].at("value").get<double>(), 20.0, 0.01 * kMeasuredVoxelMm);
+  EXPECT_NEAR(list[2].at("value").get<double>(), 20.0, 0.01 * kPieceVoxelMm);
   EXPECT_LT(length(vec_of(list[2].at("points_mm")[1]) - Vec3{a.x, 10.0, a.z}),
-            0.02 * kMeasuredVoxelMm);
+            0.02 * kPieceVoxelMm);
 }
 
 TEST_F(ViewMeasureGl, FromOnePieceToAnotherAndAlongWithAnEndThatIsDragged) {
@@ -110,13 +79,13 @@ TEST_F(ViewMeasureGl, FromOnePieceToAnotherAndAlongWithAnEndThatIsDragged) {
   const nlohmann::json first = measured(pick);
   ASSERT_EQ(first.size(), 1U);
   const Vec3 on_head = vec_of(first[0].at("points_mm")[0]);
-  EXPECT_NEAR(length(on_head - kHead.position_mm), 9.0, 0.05 * kMeasuredVoxelMm);
+  EXPECT_NEAR(length(on_head - kHead.position_mm), 9.0, 0.05 * kPieceVoxelMm);
   EXPECT_LT(length(on_head - front), 0.2) << "a pixel";
-  const nlohmann::json second = measured(pick + "drag left " + spot(camera_.pixel_of(one)) + " " +
-                                         spot(camera_.pixel_of(other)) + " 8\nsettle\n");
+  const nlohmann::json second =
+      measured(pick + "drag left " + at(one) + " " + at(other) + " 8\nsettle\n");
   ASSERT_EQ(second.size(), 1U);
   EXPECT_LT(length(vec_of(second[0].at("points_mm")[1]) - on_plane(other, 1)),
-            0.01 * kMeasuredVoxelMm);
+            0.01 * kPieceVoxelMm);
   EXPECT_EQ(vec_of(second[0].at("points_mm")[0]), on_head);
 }
 

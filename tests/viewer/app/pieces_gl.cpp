@@ -13,7 +13,7 @@
 #include "picture/gizmo.h"
 #include "picture/piece_frame.h"
 #include "viewer/support/picture_alike.h"
-#include "viewer/support/window_run.h"
+#include "viewer/support/two_pieces.h"
 
 namespace argil {
 namespace {
@@ -21,34 +21,8 @@ namespace {
 using test::name_file;
 using test::WindowRun;
 
-std::string point(const viewer::Camera::Pixel& pixel) {
-  return std::to_string(std::lround(pixel.x)) + " " + std::to_string(std::lround(pixel.y));
-}
-
-class ViewPiecesGl : public test::WindowTest {
+class ViewPiecesGl : public test::TwoPiecesTest {
  protected:
-  void SetUp() override {
-    test::WindowTest::SetUp();
-    if (IsSkipped()) return;
-    // Voxels that are seen from wherever the window looks, also before it has framed them: what is
-    // uploaded does not depend on when the document hears of that.
-    ClayOptions options;
-    options.voxel_mm = 0.5;
-    Sculpture sculpture(Clay::block({24.0, 20.0, 24.0}, options).value(), {"Body"});
-    AddPiece head;
-    head.look.name = "Head";
-    head.look.placement = kHead;
-    head.clay = std::make_shared<const Clay>(Clay::ball(9.0, options).value());
-    ASSERT_TRUE(sculpture.apply(head).ok());
-    ASSERT_TRUE(sculpture.apply(SelectPiece{"Body"}).ok());
-    ASSERT_TRUE(io::save_sculpture(folder_ / "s.vdb", sculpture).ok());
-    Box3 box = sculpture.clay(0).bounds_mm();
-    const Box3 other = viewer::placed(kHead, sculpture.clay(1).bounds_mm());
-    box.include(other.min);
-    box.include(other.max);
-    camera_ = first_camera(box);
-  }
-
   /// What the script does to the project, which is then saved.
   Sculpture sculpted(const std::string& script) {
     run_ = play("settle\nkey Tab\nmove 20 460\nframes 2\n" + script +
@@ -61,11 +35,8 @@ class ViewPiecesGl : public test::WindowTest {
     EXPECT_TRUE(read.ok());
     return std::move(read).value();
   }
-  std::string at(const Vec3& place) const { return point(camera_.pixel_of(place)); }
   std::int64_t uploaded() const { return run_.report.at("uploaded_bytes"); }
 
-  const Placement kHead{{4.0, 0.0, 21.5}, normalized(Quat{0.9, 0.0, 0.4, 0.0})};
-  viewer::Camera camera_;
   WindowRun run_;
 };
 
