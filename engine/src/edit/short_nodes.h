@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "field/halo.h"
+#include "field/leaf_change.h"
 #include "field/level_stack.h"
 
 namespace argil {
