@@ -132,7 +132,7 @@ Json error_json(const std::string& kind, const std::string& message, int status)
 Error named(const std::filesystem::path& file, Error error) {
   const bool is_of_file = error.kind != ErrorKind::disk && error.kind != ErrorKind::interrupted;
   if (is_of_file && error.message.find(file.string()) == std::string::npos) {
-    error.message = "'" + file.string() + "': " + error.message;
+    error.message.insert(0, file.string().insert(0, 1, '\'') + "': ");
   }
   return error;
 }

@@ -58,7 +58,7 @@ bool is_printable_utf8(std::string_view text) {
   return true;
 }
 
-std::string quoted_piece(std::string_view name) { return "'" + std::string(name) + "'"; }
+std::string quoted_piece(std::string_view name) { return std::string(1, '\'').append(name) + "'"; }
 
 double largest_of(const Quat& q) {
   return std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});

@@ -47,7 +47,7 @@ Error held_by_another(const fs::path& file) {
 
 Error no_key(const fs::path& file) {
   return {ErrorKind::bad_input,
-          "'" + file.string() +
+          file.string().insert(0, 1, '\'') +
               "' is there and is no key of a bridge; name a file that is not, with --key"};
 }
 

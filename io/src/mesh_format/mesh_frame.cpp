@@ -263,7 +263,7 @@ Result<ReadAssembly> read_assembly(const std::filesystem::path& file, const Mesh
 
 std::vector<std::string> frame_doubts(const std::filesystem::path& file, const FrameReport& frame) {
   std::vector<std::string> doubts;
-  const std::string name = "'" + file.string() + "'";
+  const std::string name = file.string().insert(0, 1, '\'') + "'";
   if (frame.unit_looks_like) {
     const char* better = unit_name(*frame.unit_looks_like);
     const double side = frame.largest_side_mm / length_mm(frame.unit);

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "argil/io/png.h"
+
 #include "app/app.h"
 #include "base/text.h"
 #include "document/document.h"

@@ -19,7 +19,7 @@ std::string free_name(std::string_view base, std::size_t most_bytes, const IsTak
   assert(base.size() <= most_bytes && most_bytes > 20);
   std::string name(base);
   for (int n = 2; is_taken(name); ++n) {
-    const std::string number = " " + std::to_string(n);
+    const std::string number = std::to_string(n).insert(0, 1, ' ');
     std::size_t kept = std::min(base.size(), most_bytes - number.size());
     const auto is_within_letter = [&] {
       return kept < base.size() && (static_cast<unsigned char>(base[kept]) & 0xC0U) == 0x80U;
