@@ -20,6 +20,7 @@
 #include "common/options.h"
 #include "common/output.h"
 #include "common/project.h"
+#include "common/reports.h"
 
 namespace argil::cli {
 namespace {
@@ -33,46 +34,6 @@ struct ExportArguments {
   double max_error_mm = 0.0;
   bool parts = false;
 };
-
-Json distance_json(const mesh::DistanceSummary& distance) {
-  return {{"max_mm", distance.max_mm},
-          {"mean_mm", distance.mean_mm},
-          {"rms_mm", distance.rms_mm},
-          {"samples", distance.samples}};
-}
-
-Json certificate_json(const mesh::Certificate& certificate) {
-  // 0 stands for not asked.
-  const auto or_null = [](auto asked) { return asked > 0 ? Json(asked) : Json(); };
-  Json json;
-  json["units"] = "mm";
-  json["mesh_to_field"] = distance_json(certificate.error.mesh_to_field);
-  json["field_to_mesh"] = distance_json(certificate.error.field_to_mesh);
-  json["volume_change"] = certificate.volume_change;
-  json["triangles"] = certificate.triangles;
-  json["surface_triangles"] = certificate.surface_triangles;
-  json["voxel_mm"] = certificate.voxel_mm;
-  json["tolerance_voxels"] = certificate.tolerance_voxels;
-  json["proven_max_mm"] = or_null(certificate.proven_max_mm);
-  json["asked_max_error_mm"] = or_null(certificate.asked_max_error_mm);
-  json["asked_triangles"] = or_null(certificate.asked_triangles);
-  json["clay_hash"] = hex(certificate.clay_hash);
-  return json;
-}
-
-Json export_json(const io::ExportReport& report, double seconds) {
-  Json json;
-  json["triangles"] = report.triangles;
-  json["max_error_mm"] = report.max_error_mm;
-  json["rms_error_mm"] = report.rms_error_mm;
-  json["volume_change"] = report.volume_change;
-  json["parts"] = report.parts;
-  json["removed_crumbs"] = report.removed_components;
-  json["certificate"] = certificate_json(report.certificate);
-  json.update(to_json(report.verdict));
-  json["seconds"] = seconds;
-  return json;
-}
 
 /// What was proven of the error, and what samples of both surfaces show.
 std::string error_text(const io::ExportReport& report) {

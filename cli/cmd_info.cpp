@@ -10,20 +10,10 @@
 #include "commands.h"
 #include "common/output.h"
 #include "common/project.h"
+#include "common/reports.h"
 
 namespace argil::cli {
 namespace {
-
-std::int64_t total_bytes(const std::vector<LevelStats>& levels) {
-  std::int64_t bytes = 0;
-  for (const LevelStats& level : levels) bytes += level.bytes;
-  return bytes;
-}
-
-Json bbox_json(const Box3& box) {
-  if (box.empty()) return Json();
-  return Json::array({to_json(box.min), to_json(box.max)});
-}
 
 std::string color_text(const Rgb8& color) {
   std::array<char, 8> text{};
@@ -35,23 +25,6 @@ Json placement_json(const Placement& placement) {
   const Quat& q = placement.orientation;
   return {{"position_mm", to_json(placement.position_mm)},
           {"orientation", Json::array({q.w, q.x, q.y, q.z})}};
-}
-
-/// What is in one piece; volumes and boxes are in its own frame.
-Json clay_json(const Clay& clay, const TriangleMesh& surface) {
-  const std::vector<LevelStats> levels = clay.level_stats();
-  Json json;
-  json["levels"] = to_json(levels);
-  json["bbox_mm"] = bbox_json(bounds(surface));
-  json["volume_mm3"] = signed_volume(surface);
-  json["area_mm2"] = surface_area(surface);
-  json["hash"] = hex(clay.hash());
-  json["bytes"] = total_bytes(levels);
-  json["triangles"] = surface.triangles.size();
-  json["tolerance_voxels"] = clay.options().tolerance_voxels;
-  const auto& edge = clay.options().edge_radius_mm;
-  json["edge_radius_mm"] = edge ? Json(*edge) : Json(nullptr);
-  return json;
 }
 
 std::string clay_text(const Clay& clay, const TriangleMesh& surface) {

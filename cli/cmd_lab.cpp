@@ -497,6 +497,7 @@ Result<Outcome> run_lab_command(const LabOptions& asked, const Progress& progres
   if (!made) return made.error();
   LabScene& scene = made.value();
   const auto run = lab::run_lab(options, scene, recording ? &*recording : nullptr, progress);
+  end_within_a_second();  // a device that was driven has had its zero words
   if (!run) return run.error();
   if (scene.clay && !options.save.empty()) {
     if (auto saved = replace_project(options.save, scene.clay->clay()); !saved) {

@@ -14,6 +14,7 @@
 #include "common/options.h"
 #include "common/output.h"
 #include "common/project.h"
+#include "common/reports.h"
 #include "mesh_input.h"
 
 namespace argil::cli {
@@ -28,55 +29,6 @@ struct RepairCommand {
   bool unite = false;
   MeshFrameOptions frame;
 };
-
-const char* path_name(io::RepairPath path) {
-  if (path == io::RepairPath::nothing) return "nothing";
-  return path == io::RepairPath::local ? "local" : "field";
-}
-
-Json repair_json(const io::RepairReport& report) {
-  Json json;
-  // The key that scripts know (docs/command_line.md).
-  json["way"] = path_name(report.path);
-  json["welded_vertices"] = report.closing.welded_vertices + report.joined_vertices;
-  json["dropped_triangles"] = report.closing.dropped_triangles;
-  json["split_edges"] = report.split_edges;
-  json["interior_faces"] = report.interior_faces;
-  json["dropped_fins"] = report.dropped_fins;
-  json["parts_flipped"] = report.closing.parts_flipped;
-  json["holes_closed"] = report.closing.holes_closed;
-  json["thickened_sheets"] = report.thickened_sheets;
-  json["coned_holes"] = report.coned_holes;
-  json["dropped_sheets"] = report.dropped_sheets;
-  json["dropped_crumbs"] = report.dropped_crumbs;
-  json["parted_vertices"] = report.parted_vertices;
-  json["gap_mm"] = report.gap_mm;
-  json["united_parts"] = report.united_parts;
-  json["crossings"] = report.crossings;
-  json["voxel_mm"] = report.voxel_mm;
-  json["kept_triangles"] = report.kept_triangles;
-  json["turned_triangles"] = report.closing.turned_triangles;
-  json["max_change_mm"] = report.max_change_mm;
-  json["max_change_slack_mm"] = report.max_change_slack_mm;
-  json["given_size_mm"] = to_json(report.given_size_mm);
-  json["given_volume_mm3"] = report.given_volume_mm3 ? Json(*report.given_volume_mm3) : Json();
-  const auto places = [](const std::vector<io::RepairPlace>& all) {
-    Json array = Json::array();
-    for (const io::RepairPlace& place : all) {
-      array.push_back({{"at_mm", to_json(place.at_mm)}, {"distance_mm", place.distance_mm}});
-    }
-    return array;
-  };
-  json["lost"] = {{"too_much", report.lost_too_much()},  {"share", report.loss.share},
-                  {"parts", report.loss.parts},          {"tolerance_mm", report.loss.tolerance_mm},
-                  {"samples", report.loss.samples},      {"covered_mm3", report.loss.covered_mm3},
-                  {"places", places(report.loss.places)}};
-  json["guessed"] = {{"too_much", report.guessed_too_much()},
-                     {"share", report.guess.share},
-                     {"tolerance_mm", report.guess.tolerance_mm},
-                     {"places", places(report.guess.places)}};
-  return json;
-}
 
 std::string repair_changes(const io::RepairReport& report) {
   if (report.path == io::RepairPath::nothing) return "nothing to repair\n";
@@ -151,13 +103,6 @@ std::string loss_text(const io::RepairReport& report) {
   return text;
 }
 
-Json report_json(const io::RepairReport& report, std::size_t triangles) {
-  Json json = repair_json(report);
-  json.update(to_json(report.verdict));
-  json["triangles"] = triangles;
-  return json;
-}
-
 std::string report_text(const io::RepairReport& report) {
   return repair_changes(report) + loss_text(report) + verdict_text(report.verdict);
 }
@@ -184,7 +129,7 @@ Result<Outcome> repair_whole(const RepairCommand& command, io::Assembly assembly
   auto written = io::write_mesh(command.output, mesh, options, progress);
   if (!written) return written.error();
   Outcome outcome;
-  outcome.json = report_json(report, mesh.triangles.size());
+  outcome.json = repair_json(report, mesh.triangles.size());
   outcome.json["parts"] = Json::array();
   outcome.text = report_text(report);
   outcome.status = status_for(report, command.allow_loss);
@@ -287,7 +232,7 @@ Json parts_json(const io::RepairedAssembly& made, const std::vector<std::string>
   Json parts = Json::array();
   for (std::size_t o = 0; o < made.reports.size(); ++o) {
     Json part = {{"name", names[o]}};
-    part.update(report_json(made.reports[o], made.assembly.objects[o].mesh.triangles.size()));
+    part.update(repair_json(made.reports[o], made.assembly.objects[o].mesh.triangles.size()));
     parts.push_back(std::move(part));
   }
   return parts;
@@ -322,7 +267,7 @@ Result<Outcome> repair_parts(const RepairCommand& command, io::Assembly assembly
   }
   Outcome outcome;
   outcome.json =
-      report_json(made.reports.size() == 1 ? made.reports[0] : total_of(made), triangles);
+      repair_json(made.reports.size() == 1 ? made.reports[0] : total_of(made), triangles);
   outcome.json["lost"]["too_much"] =
       std::any_of(made.reports.begin(), made.reports.end(),
                   [](const io::RepairReport& report) { return report.lost_too_much(); });

@@ -3,6 +3,19 @@
 # ones, their Debian packages (cmake/packages.txt) and the command that installs them.
 include(ArgilFind)
 
+# The extension of Python, for the interpreter of the system, whose packages know of ours, unless another
+# is named by Python_EXECUTABLE.
+macro(argil_find_python)
+  if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the package argil is for")
+  endif()
+  argil_find_package("Python's headers" python3-dev Python 3.11 COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    set(PYBIND11_FINDPYTHON ON)
+    argil_find_package("pybind11 2.10" pybind11-dev pybind11 2.10 CONFIG)
+  endif()
+endmacro()
+
 # What tests use besides; lib3mf, which is the 3MF consortium's own, is the other side of our 3MF.
 macro(argil_find_for_tests)
   argil_find_package("GoogleTest" libgtest-dev GTest CONFIG)
@@ -49,6 +62,9 @@ if(NOT ARGIL_CORE_ONLY)
   argil_find_io()
   argil_find_viewer()
   argil_find_package("CLI11 2.1" libcli11-dev CLI11 2.1 CONFIG)
+  if(ARGIL_BUILD_PYTHON)
+    argil_find_python()
+  endif()
 endif()
 if(ARGIL_BUILD_TESTS)
   argil_find_for_tests()

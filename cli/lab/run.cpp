@@ -573,7 +573,6 @@ Result<LabRun> run_lab(const LabOptions& options, LabScene& scene,
   auto run = recording != nullptr   ? run_replay(*recording, test, felt, clay, progress)
              : options.is_real_time ? run_lab_real_time(options, test, felt, clay, progress)
                                     : run_virtual(options, test, felt, clay, progress);
-  end_within_a_second();  // a device that was driven has had its zero words
   const bool has_plan = !options.is_held_by_a_person && options.device != "falcon";
   if (run && has_plan) judge_length(test, run.value());
   if (run && has_plan) judge_contact(test, run.value());

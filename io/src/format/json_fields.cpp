@@ -44,7 +44,7 @@ std::string quoted_list(Names known) {
 
 }  // namespace
 
-std::string FileLine::name() const { return file + ":" + std::to_string(line); }
+std::string FileLine::name() const { return line == 0 ? file : file + ":" + std::to_string(line); }
 
 Error FileLine::error(const std::string& what) const {
   return {ErrorKind::bad_input, name() + ": " + what};

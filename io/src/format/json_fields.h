@@ -20,7 +20,7 @@ using NameList = std::initializer_list<std::string_view>;
 /// A line of a file, which messages point to.
 struct FileLine {
   std::string file;
-  int line = 0;
+  int line = 0;  ///< counted from 1; 0: of no file, and messages name `file` alone
 
   std::string name() const;
   Error error(const std::string& what) const;

@@ -150,4 +150,19 @@ Result<StrokeScript> read_stroke_script(const std::filesystem::path& file) {
   });
 }
 
+Result<ScriptStep> read_script_step(const std::string& name, std::string_view line,
+                                    const std::filesystem::path& folder) {
+  return no_throw(name, [&]() -> Result<ScriptStep> {
+    if (line.find('\n') != std::string_view::npos) {
+      return Error{ErrorKind::bad_input, name + " has several lines; give one step"};
+    }
+    SolidReader solids(folder);
+    auto read = read_script_line({name, 0}, line, solids);
+    if (!read) return read.error();
+    if (auto* step = std::get_if<ScriptStep>(&read.value())) return std::move(*step);
+    return Error{ErrorKind::bad_input,
+                 name + " is a mark of a journal; give a stroke, an operation or another step"};
+  });
+}
+
 }  // namespace argil::io

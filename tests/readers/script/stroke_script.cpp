@@ -214,6 +214,27 @@ TEST(StrokeScript, HoldsEditsOfTheMask) {
       "3: key 'mask' is \"fade\"; must be one of 'clear', 'invert', 'blur', 'fill', 'sharpen'");
 }
 
+TEST(StrokeScript, ReadsAStepByItselfAndNamesWhereItComesFrom) {
+  const auto step = read_script_step("step", kStroke, {});
+  ASSERT_TRUE(step.ok()) << step.error().message;
+  EXPECT_EQ(std::get<Stroke>(step.value()).samples.size(), 2U);
+  const auto cut =
+      read_script_step("step", R"({"operation":"cut","point_mm":[0,0,1],"normal":[0,0,1]})", {});
+  ASSERT_TRUE(cut.ok()) << cut.error().message;
+  EXPECT_TRUE(std::holds_alternative<Operation>(cut.value()));
+
+  const auto message = [](const std::string& line) {
+    const auto read = read_script_step("step", line, {});
+    return read.ok() ? "read" : read.error().message;
+  };
+  EXPECT_THAT(message(R"({"operation":"offset","distance":1})"),
+              testing::StartsWith("step: key 'distance'"));
+  EXPECT_THAT(message(R"({"after":1,"hash":"0123456789abcdef"})"), HasSubstr("mark of a journal"));
+  EXPECT_THAT(message(std::string(kStroke) + "\n" + kStroke), HasSubstr("several lines"));
+  EXPECT_THAT(message("nothing"), testing::StartsWith("step"));
+  EXPECT_THAT(message(""), testing::StartsWith("step"));
+}
+
 TEST(StrokeScript, NamesLineKeyAndRemedyOfWhatIsWrong) {
   struct Case {
     const char* line;

@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -56,5 +57,12 @@ Result<void> validate_step(const ScriptStep& step);
 /// Errors  bad_input "FILE:LINE: key 'radius_mm' is -4; must be greater than 0": names line and
 ///         key, also for a mesh or clay that is not there or not what it should be; disk.
 Result<StrokeScript> read_stroke_script(const std::filesystem::path& file);
+
+/// One step as a line of a script has it, from a program that makes steps itself. `name` is what
+/// messages call where it comes from; files that it names are seen from `folder`.
+/// Errors  as read_stroke_script, without a line's number; bad_input for several lines, and for
+///         what only a journal has.
+Result<ScriptStep> read_script_step(const std::string& name, std::string_view line,
+                                    const std::filesystem::path& folder);
 
 }  // namespace argil::io

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include <nlohmann/json.hpp>
+#include <pybind11/pybind11.h>
+
+#include "argil/core/vec3.h"
+
+namespace argil::python {
+
+namespace py = pybind11;
+
+/// What `--json` of the command line prints, as Python has it: dict, list, str, int, float, bool,
+/// None.
+py::object from_json(const nlohmann::ordered_json& json);
+
+/// Three numbers of any sequence; throws BadInput that calls it `name`.
+Vec3 vec3_of(const char* name, py::handle numbers);
+py::tuple tuple_of(const Vec3& v);
+
+}  // namespace argil::python
