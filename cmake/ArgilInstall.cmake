@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake --install, in components: `runtime` is the program and all that it comes with, `dev` are the
-# libraries, headers, the CMake package Argil and pkg-config files. Debian packages carry these two;
-# `elsewhere` is what other systems want besides.
+# libraries, headers, the CMake package Argil and pkg-config files, `python` is the package argil of Python
+# (python/CMakeLists.txt). Debian packages carry these three; `elsewhere` is what other systems want besides.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(ArgilNeeds)

@@ -4,8 +4,8 @@
 #   core <- engine <- io <- viewer <- cli
 #   core <- mesh <- io        core <- haptics <- viewer
 #
-# A layer may reach, through any chain of targets, only the layers named here; the evaluation may reach all of
-# them, and of cli only cli/common and cli/lab. Other programs (argil, tests, benchmarks) may reach all.
+# A layer may reach, through any chain of targets, only the layers named here; the evaluation and Python may reach
+# all of them, and of cli only cli/common and cli/lab. Other programs (argil, tests, benchmarks) may reach all.
 set(ARGIL_LAYERS core engine haptics mesh io viewer)
 set(ARGIL_REACH_core "")
 set(ARGIL_REACH_engine core)
@@ -25,7 +25,7 @@ set(ARGIL_ROOT_viewer viewer)
 # The folders of each, the lowest first: a file may include what lies in its own folder and in those before
 # it, private headers and public ones, by paths without `..`. Where a program or library has no folders, or a
 # file lies in none, it may include all.
-set(ARGIL_PROGRAMS evaluation cli)
+set(ARGIL_PROGRAMS evaluation cli python)
 set(ARGIL_SOURCES_core engine/core/src)
 set(ARGIL_SOURCES_engine engine/src)
 set(ARGIL_SOURCES_haptics haptics/src)
@@ -34,6 +34,7 @@ set(ARGIL_SOURCES_io io/src)
 set(ARGIL_SOURCES_viewer viewer/src)
 set(ARGIL_SOURCES_evaluation evaluation)
 set(ARGIL_SOURCES_cli cli)
+set(ARGIL_SOURCES_python python/src)
 set(ARGIL_FOLDERS_core "")
 set(ARGIL_FOLDERS_engine rows distance field feet edit import tool brush action symmetry clay raycast surface operation
                          sculpture window live)
@@ -44,6 +45,7 @@ set(ARGIL_FOLDERS_viewer base picture document gl input commands haptics panels 
 set(ARGIL_FOLDERS_evaluation measure chart blender scene rivals force stability bridge decimate memory surface edits
                              operations gallery normals report)
 set(ARGIL_FOLDERS_cli common shell play bridge lab)
+set(ARGIL_FOLDERS_python "")
 
 # The targets that a target links, whatever generator expression wraps their names.
 function(argil_linked_targets out target)
@@ -282,19 +284,20 @@ function(argil_check_folder_of_file layer path)
   endforeach()
 endfunction()
 
-# The evaluation may use of the command line nothing but cli/common and cli/lab; the commands use the evaluation.
-function(argil_check_evaluation)
-  set(base ${PROJECT_SOURCE_DIR}/${ARGIL_SOURCES_evaluation})
+# The evaluation and Python may use of the command line nothing but cli/common and cli/lab; the commands use
+# the evaluation.
+function(argil_check_use_of_cli folder)
+  set(base ${PROJECT_SOURCE_DIR}/${folder})
   file(GLOB_RECURSE files ${base}/*.cpp ${base}/*.h)
   foreach(path IN LISTS files)
+    cmake_path(GET path PARENT_PATH beside)
     argil_includes(headers ${path})
     foreach(header IN LISTS headers)
-      argil_included_file(own evaluation ${path} ${header})
-      if(NOT own AND NOT header MATCHES "^(common|lab)/" AND EXISTS ${PROJECT_SOURCE_DIR}/cli/${header} AND
-         NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/cli/${header})
+      if(NOT EXISTS ${beside}/${header} AND NOT EXISTS ${base}/${header} AND NOT header MATCHES "^(common|lab)/"
+         AND EXISTS ${PROJECT_SOURCE_DIR}/cli/${header} AND NOT IS_DIRECTORY ${PROJECT_SOURCE_DIR}/cli/${header})
         cmake_path(RELATIVE_PATH path BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
-        message(FATAL_ERROR "Forbidden include: ${place} includes ${header} of cli. The evaluation may use "
-          "only cli/common and cli/lab; move the code there (docs/architecture.md).")
+        message(FATAL_ERROR "Forbidden include: ${place} includes ${header} of cli. ${folder} may use only "
+          "cli/common and cli/lab; move the code there (docs/architecture.md).")
       endif()
     endforeach()
   endforeach()
@@ -315,5 +318,6 @@ function(argil_check_layers)
   foreach(layer IN LISTS ARGIL_LAYERS ARGIL_PROGRAMS)
     argil_check_folders(${layer})
   endforeach()
-  argil_check_evaluation()
+  argil_check_use_of_cli(evaluation)
+  argil_check_use_of_cli(python/src)
 endfunction()

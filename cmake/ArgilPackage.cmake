@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cpack: argil_*.deb and libargil-dev_*.deb of the components `runtime` and `dev` (docs/installing.md).
+# cpack: argil_*.deb, libargil-dev_*.deb and python3-argil_*.deb of the components `runtime`, `dev` and `python`
+# (docs/installing.md).
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT TARGET argil)
   return()
 endif()
@@ -28,13 +29,18 @@ if(ARGIL_OS_VERSION_CODENAME)
   set(ARGIL_DEB_SUITE ${ARGIL_OS_VERSION_CODENAME})
 endif()
 
-# Both packages have the copyright and the two changelogs in a folder of their own name.
+set(ARGIL_DEB_PACKAGES argil:runtime libargil-dev:dev)
+if(TARGET argil_python)
+  list(APPEND ARGIL_DEB_PACKAGES python3-argil:python)
+endif()
+
+# All packages have the copyright and the two changelogs in a folder of their own name.
 string(TIMESTAMP ARGIL_DEB_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)  # or SOURCE_DATE_EPOCH
 configure_file(cmake/package/changelog.in ${PROJECT_BINARY_DIR}/package/changelog.Debian @ONLY)
 configure_file(CHANGELOG.md ${PROJECT_BINARY_DIR}/package/changelog COPYONLY)
 execute_process(COMMAND ${ARGIL_GZIP} -9nfk changelog.Debian changelog
   WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package COMMAND_ERROR_IS_FATAL ANY)
-foreach(package IN ITEMS argil:runtime libargil-dev:dev)
+foreach(package IN LISTS ARGIL_DEB_PACKAGES)
   string(REPLACE ":" ";" package ${package})
   list(POP_FRONT package name)
   install(FILES ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz
@@ -45,6 +51,9 @@ endforeach()
 set(CPACK_GENERATOR DEB)
 set(CPACK_SOURCE_GENERATOR "")
 set(CPACK_COMPONENTS_ALL runtime dev)
+if(TARGET argil_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
@@ -81,6 +90,21 @@ feels, and writes closed meshes for 3D printers.
 
 These are the static libraries core, haptics, engine, mesh and io with their headers,
 for CMake's find_package(Argil) and for pkg-config.")
+
+# The extension is of one version of Python alone; what it links, dpkg-shlibdeps sees.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-argil)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+math(EXPR ARGIL_PYTHON_NEXT "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${ARGIL_PYTHON_NEXT}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-distributed, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/package/python/postinst
+  ${PROJECT_SOURCE_DIR}/cmake/package/python/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "sculpts digital clay that can be felt (Python 3)
+Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
+only where there is detail, sculpts it, tells what a hand that holds the tool
+feels, and writes closed meshes for 3D printers.
+
+This is its package for Python: arrays of NumPy in and out.")
 argil_needed_files(CPACK_ARGIL_NEEDED_FILES ${ARGIL_INSTALLED_LAYERS})
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/dependencies.cmake)
 include(CPack)

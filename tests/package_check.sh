@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the two Debian packages on this system with apt and uses them as somebody would who has
-# nothing else of Argil: a mesh through import, export, check and the window, and a program built against
-# libargil-dev. Then removes them. For a bare system that is thrown away after (tests/fresh_system.sh).
+# Installs the three Debian packages on this system with apt and uses them as somebody would who has
+# nothing else of Argil: a mesh through import, export, check and the window, the examples of Python, and a
+# program built against libargil-dev. Then removes them. For a bare system that is thrown away after (tests/fresh_system.sh).
 # Usage, as root: tests/package_check.sh DEB_FOLDER
 # A line for each step; exit status 1 after the first that failed, which is named.
 set -euo pipefail
@@ -29,6 +29,7 @@ the_package() { # NAME
 folder=$(realpath "$1")
 program=$(the_package argil)
 library=$(the_package libargil-dev)
+python=$(the_package python3-argil)
 
 user=nobody # is there on any Debian; a bare Debian 13 has no useradd
 logs=$(mktemp -d)
@@ -85,8 +86,18 @@ sees_a_window() {
     { echo "window.png holds $(stat -c %s "$home/window.png") bytes"; return 1; }
 }
 
+# Each by itself, in an empty folder; all draw with what python3-argil suggests.
+runs_examples() {
+  local example
+  for example in /usr/share/doc/argil/examples/python/*.py; do
+    as_user "mkdir -p pictures && python3 $example -o pictures"
+  done
+  [ "$(find "$home/pictures" -name '*.png' -size +4k | wc -l)" -ge 8 ] ||
+    { ls -l "$home/pictures"; return 1; }
+}
+
 leaves_nothing() {
-  apt-get -q -y purge argil libargil-dev
+  apt-get -q -y purge argil libargil-dev python3-argil
   [ -z "$(find /usr -name '*argil*' -not -path '/usr/local/*')" ]
 }
 
@@ -100,9 +111,17 @@ step "argil check clay.3mf" as_user \
   'argil check clay.3mf --printer /usr/share/argil/printers/filament.json'
 step "apt installs a display" install xvfb xauth libgl1 libgl1-mesa-dri
 step "argil view draws 10 frames" sees_a_window
+step "apt installs $(basename "$python")" install "$python"
+step "python3 sculpts and exports" as_user 'python3 -W error -c "
+import argil
+clay = argil.Clay.from_mesh(argil.Mesh.load(\"/usr/share/doc/argil/examples/pebble.ply\"))
+clay.offset(0.5)
+assert clay.export(\"pebble.3mf\")[\"printable\"]"'
+step "apt installs what the examples draw with" install python3-matplotlib python3-pil
+step "python3 runs the examples" runs_examples
 step "apt installs $(basename "$library")" install "$library"
 step "apt installs a compiler" install g++ cmake ninja-build pkg-config
 step "a program builds with find_package(Argil) and with pkg-config" as_user \
   'consumer/build.sh scratch'
-step "apt removes both and leaves nothing" leaves_nothing
+step "apt removes all and leaves nothing" leaves_nothing
 echo "package: all steps passed"

@@ -17,7 +17,7 @@ mkdir -p "$scratch"
   tail -n 30 "$scratch/cpack.log"
   stop "cpack; see $scratch/cpack.log"
 }
-packages=("$scratch"/argil_*.deb "$scratch"/libargil-dev_*.deb)
+packages=("$scratch"/argil_*.deb "$scratch"/libargil-dev_*.deb "$scratch"/python3-argil_*.deb)
 for package in "${packages[@]}"; do
   [ -f "$package" ] || stop "cpack made no ${package##*/}"
   dpkg-deb --field "$package" Depends | tr -d '\n' | sed "s|^|${package##*/} depends on: |; s|$|\n|"

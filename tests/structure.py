@@ -7,8 +7,8 @@ Usage: tests/structure.py [FOLDER]   the root of a checkout; default: this one
 The order of each library's folders is read from cmake/ArgilLayers.cmake (ARGIL_FOLDERS_*, the lowest
 first), which stops CMake on the same faults. A public header belongs to the folder whose source has its
 name, and without one to the highest folder that it includes. Exit status 1 when there is an arrow upwards, a
-circle, an include with `..` in its path, a file of the evaluation that includes more of cli than cli/common and
-cli/lab, a type that is defined twice, or a library with fewer asserts than LEAST_ASSERTS.
+circle, an include with `..` in its path, a file of the evaluation or of Python that includes more of cli than
+cli/common and cli/lab, a type that is defined twice, or a library with fewer asserts than LEAST_ASSERTS.
 """
 import collections
 import pathlib
@@ -19,6 +19,7 @@ import sys
 ROOTS = {  # library: where its private includes begin
     "core": "engine/core/src", "engine": "engine/src", "mesh": "mesh/src", "haptics": "haptics/src",
     "io": "io/src", "viewer": "viewer/src", "evaluation": "evaluation", "cli": "cli",
+    "python": "python/src",
 }
 PUBLIC = {"core": "engine/core/include", "engine": "engine/include", "mesh": "mesh/include",
           "haptics": "haptics/include", "io": "io/include", "viewer": "viewer/include"}
@@ -221,7 +222,8 @@ def report_folders(root, orders):
 
 
 def strange_includes(root):
-    """Includes that go round the folders by `..`, and those of the evaluation that lie in cli but not in cli/common or cli/lab."""
+    """Includes that go round the folders by `..`, and those of the evaluation and of Python that lie in cli but
+    not in cli/common or cli/lab."""
     faults = []
     for folder in sorted({*ROOTS.values(), *PUBLIC.values(), "tests", "examples"}):
         for path in sources(root, folder):
@@ -229,9 +231,9 @@ def strange_includes(root):
                 place = path.relative_to(root)
                 if {"", ".", ".."} & set(name.split("/")):
                     faults.append(f"{place} includes {name}")
-                elif folder == "evaluation" and (root / "cli" / name).is_file() and \
+                elif folder in ("evaluation", "python/src") and (root / "cli" / name).is_file() and \
                         not name.startswith(("common/", "lab/")) and \
-                        not any((beside / name).is_file() for beside in (path.parent, root / "evaluation")):
+                        not any((beside / name).is_file() for beside in (path.parent, root / folder)):
                     faults.append(f"{place} includes {name} of cli")
     return faults
 

@@ -98,7 +98,7 @@ set_up_system() {
 readonly compiled='engine/core/src/hash.cpp haptics/src/falcon/falcon_link.cpp engine/src/edit/coarsening_criterion.cpp
   engine/src/raycast/ray_scene.cpp mesh/src/repair/hole_fill.cpp mesh/src/repair/collapse_folded.cpp
   io/src/format/png.cpp io/src/vdb/vdb_tree.cpp
-  viewer/src/panels/gui.cpp cli/cmd_check.cpp'
+  viewer/src/panels/gui.cpp cli/cmd_check.cpp python/src/clay.cpp'
 
 # A file's object is the path of the file but for the folder CMake puts between; it has one of its own
 # without unity builds, and needs nothing else to be compiled without precompiled headers.
@@ -210,6 +210,12 @@ package() {
   mkdir "$out/debs"
   find "$system$clone/build/release" -maxdepth 2 -name '*.deb' -exec cp -t "$out/debs" {} +
   compgen -G "$out/debs/*.deb" >/dev/null || fail "cpack made no .deb"
+  next_step "wheel"
+  # As a user does it, in an environment of its own that sees the system's packages; what CMake compiled
+  # for the packages, ccache has.
+  run_quietly wheel 'python3 -m venv --system-site-packages /root/venv &&
+    CMAKE_ARGS=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache /root/venv/bin/pip install --no-build-isolation . &&
+    cd / && /root/venv/bin/python -c "import argil; print(argil.Clay.ball(5).surface())"'
   next_step "install on a second system"
   make_system "$target" || fail "no second $release could be made"
   enter_system "$target"

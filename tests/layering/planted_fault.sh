@@ -14,7 +14,7 @@ fail() {
 
 rm -rf "$scratch"
 mkdir -p "$copy"
-for part in CMakeLists.txt LICENSE README.md CHANGELOG.md docs cmake engine mesh haptics io viewer cli evaluation; do
+for part in CMakeLists.txt LICENSE README.md CHANGELOG.md docs cmake engine mesh haptics io viewer cli evaluation python; do
   cp -r "$repository/$part" "$copy/"
 done
 mkdir -p "$copy/tests" # the copy needs a tests folder to have its headers checked, but no test
@@ -173,6 +173,11 @@ case $fault in
     both_stop '#include "commands.h"' evaluation/chart/sheet.h \
       'Forbidden include: evaluation/chart/sheet.h includes commands.h of cli' \
       'FAULT evaluation/chart/sheet.h includes commands.h of cli'
+    ;;
+  PythonIncludesTopOfCliStops)
+    both_stop '#include "commands.h"' python/src/convert.h \
+      'Forbidden include: python/src/convert.h includes commands.h of cli' \
+      'FAULT python/src/convert.h includes commands.h of cli'
     ;;
   EvaluationLinksCliStops)
     options=()
