@@ -2,8 +2,8 @@
 """Add-on: the sidebar's panel "Argil" couples the meshes of the open file with `argil bridge`.
 
 Install: Edit > Preferences > Add-ons > Install, with this file. Blender copies it alone: the other
-argil_*.py must be put beside the copy, or ARGIL_BLENDER must name their folder. Start `argil bridge`,
-then press Couple. The exchange runs on a thread of its own that touches nothing of bpy: it feels a
+argil_*.py must be put beside the copy, or ARGIL_BLENDER must name their folder. Choose a device, where
+Blender's Python has the package argil; else start `argil bridge`. Then press Couple. The exchange runs on a thread of its own that touches nothing of bpy: it feels a
 tree which the main thread made. A timer of the main thread draws the proxy and rebuilds the tree
 when meshes changed, appeared or went.
 
@@ -25,6 +25,11 @@ import argil_clay  # noqa: E402
 import argil_clay_scene  # noqa: E402
 import argil_scene  # noqa: E402
 
+try:  # with the package the servo runs in this process
+    from argil.local_bridge import LocalClient
+except ImportError:
+    LocalClient = None
+
 bl_info = {
     "name": "Argil: feel the scene",
     "author": "The Argil authors",
@@ -36,31 +41,44 @@ bl_info = {
 }
 
 DRAW_EVERY_S = 1.0 / 60.0
+DEVICES = [("bridge", "argil bridge", "Another program has the device: start argil bridge"),
+           ("falcon", "Falcon", "A Novint Falcon, with its servo in Blender's process"),
+           ("sim", "Simulated", "A simulated Falcon, whose hand presses on the origin")]
+
+
+def usable_devices(_self, _context):
+    return DEVICES if LocalClient else DEVICES[:1]
 
 
 class Exchange(threading.Thread):
     """Answers the bridge's states at its rate until it is told to end. No bpy in here."""
 
-    def __init__(self, port, rate_hz, contact):
+    def __init__(self, port, rate_hz, contact, device="bridge"):
         super().__init__(daemon=True)
-        self.client = bridge.Client(rate_hz, port)
+        self.client = None
+        self._make_client = (lambda: bridge.Client(rate_hz, port)) if device == "bridge" else \
+            (lambda: LocalClient(rate_hz, device=device))
         self.contact = contact  # replaced as a whole by the main thread
         self.clay = None        # a ClayContact, from when a bridge that has clay first answers
         self.handle = None      # a HandleContact, while the bridge has a scene of its own
-        self.status = "waiting for argil bridge"
+        self._waits = "waiting for argil bridge" if device == "bridge" else \
+            "waiting for the device: home it as the terminal says" if device == "falcon" else "starting"
+        self.status = self._waits
         self._ends = threading.Event()
 
     def run(self):
         try:
+            self.client = self._make_client()
             while not self._ends.is_set():
                 if self.client.connect(1.0):
                     self._couple()
                 else:
                     self.status = self.client.unwelcome()
-        except (bridge.Refused, ValueError) as refusal:
-            self.status = str(refusal)  # of the bridge, or of a number that it would not take
+        except Exception as refusal:  # of the bridge, of a number that it would not take, of the device
+            self.status = str(refusal)
         finally:
-            self.client.close()
+            if self.client is not None:
+                self.client.close()
             if self.clay is not None:
                 self.clay.thread.end()
 
@@ -76,7 +94,7 @@ class Exchange(threading.Thread):
             self.client.answer(contact.answer(self.client.state, self.client.welcome))
             due = max(due + 1.0 / self.client.rate_hz, time.monotonic() - 0.1)
             time.sleep(max(0.0, due - time.monotonic()))
-        self.status = "waiting for argil bridge"
+        self.status = self._waits
 
     def end(self):
         self._ends.set()
@@ -93,7 +111,7 @@ class Coupling:
 
     @classmethod
     def start(cls, scene):
-        cls.exchange = Exchange(scene.argil_port, scene.argil_rate, cls.new_contact())
+        cls.exchange = Exchange(scene.argil_port, scene.argil_rate, cls.new_contact(), scene.argil_device)
         cls.exchange.start()
         if not bpy.app.timers.is_registered(tick):
             bpy.app.timers.register(tick, persistent=True)  # also over File > Open
@@ -172,7 +190,9 @@ class ARGIL_PT_panel(bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
-        layout.prop(context.scene, "argil_port")
+        layout.prop(context.scene, "argil_device")
+        if context.scene.argil_device == "bridge":
+            layout.prop(context.scene, "argil_port")
         layout.prop(context.scene, "argil_rate")
         exchange = Coupling.exchange
         layout.operator("argil.couple", text="Couple" if exchange is None else "Let go")
@@ -190,6 +210,7 @@ CLASSES = (ARGIL_OT_couple, ARGIL_PT_panel)
 
 
 def register():
+    bpy.types.Scene.argil_device = bpy.props.EnumProperty(name="Device", items=usable_devices)
     bpy.types.Scene.argil_port = bpy.props.IntProperty(
         name="Port", default=bridge.USUAL_PORT, min=1, max=65535)
     bpy.types.Scene.argil_rate = bpy.props.FloatProperty(
@@ -206,7 +227,7 @@ def unregister():
     bpy.app.handlers.load_post.remove(see_file)
     for kind in reversed(CLASSES):
         bpy.utils.unregister_class(kind)
-    del bpy.types.Scene.argil_port, bpy.types.Scene.argil_rate
+    del bpy.types.Scene.argil_port, bpy.types.Scene.argil_rate, bpy.types.Scene.argil_device
 
 
 if __name__ == "__main__":

@@ -248,24 +248,32 @@ class Client:
         if not LEAST_RATE_HZ <= self.rate_hz <= MOST_RATE_HZ:
             raise ValueError(f"a rate of {self.rate_hz:g} Hz is not within {LEAST_RATE_HZ:g} to "
                              f"{MOST_RATE_HZ:g} Hz")
+        self._key = None
+        self._sequence = 0  # rising over all simulators: the time of day, where that goes on
+        self._heard = 0     # of the bridge with this key
+        self._is_answered = True  # the newest state
+        self._open_transport()
+
+    def _open_transport(self):
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         is_local = self.host.startswith("127.")
         self._socket.bind(("127.0.0.1" if is_local else "", 0))
         self._socket.setblocking(False)
         self._own_port = self._socket.getsockname()[1]
         self.key_file = self.key_file or usual_key_file(self.port)
-        self._key = None
-        self._sequence = 0  # rising over all simulators: the time of day, where that goes on
-        self._heard = 0     # of the bridge with this key
-        self._is_answered = True  # the newest state
+
+    def _close_transport(self):
+        self._socket.close()
 
     def _send(self, message):
         self._sequence = max(self._sequence + 1, time.time_ns())
         message.sequence = self._sequence
         message.time_ns = time.monotonic_ns()
+        self._transmit(encode(message))
+
+    def _transmit(self, data):
         if self._key is None:
             return
-        data = encode(message)
         try:
             its_tag = tag(self._key, BY_SIMULATOR, data + _PORT.pack(self._own_port))
             self._socket.sendto(data + its_tag, (self.host, self.port))
@@ -275,8 +283,8 @@ class Client:
     def _wait(self, seconds):
         return bool(select.select([self._socket], [], [], seconds)[0])
 
-    def _next(self):
-        """The next message that is one; None when nothing more has arrived."""
+    def _take(self):
+        """The next message's bytes from somebody who has the key; None when nothing more has arrived."""
         while True:
             try:
                 data, sender = self._socket.recvfrom(512)
@@ -284,21 +292,21 @@ class Client:
                 return None
             except ConnectionRefusedError:
                 continue  # by a bridge that is not there yet
-            message = self._open(data) if sender == (self.host, self.port) else None
-            if message is not None:
-                return message
+            body, its_tag = data[:-TAG_BYTES], data[-TAG_BYTES:]
+            if sender == (self.host, self.port) and self._key is not None and \
+                    has_tag(self._key, BY_BRIDGE, body + _PORT.pack(self.port), its_tag):
+                return body
             self.counts.malformed += 1
 
-    def _open(self, data):
-        """The message, where it is from somebody who has the key, and not an old one."""
-        body, its_tag = data[:-TAG_BYTES], data[-TAG_BYTES:]
-        if self._key is None or not has_tag(self._key, BY_BRIDGE, body + _PORT.pack(self.port), its_tag):
-            return None
-        message = decode(body)
-        if message is None or message.sequence <= self._heard:
-            return None
-        self._heard = message.sequence
-        return message
+    def _next(self):
+        """The next message that is one, and not an old one; None when nothing more has arrived."""
+        while (body := self._take()) is not None:
+            message = decode(body)
+            if message is not None and message.sequence > self._heard:
+                self._heard = message.sequence
+                return message
+            self.counts.malformed += 1
+        return None
 
     def _read_key(self):
         """Of the bridge that is there now: each has its own."""
@@ -374,7 +382,7 @@ class Client:
     def close(self):
         """Says goodbye."""
         self._send(Bye())
-        self._socket.close()
+        self._close_transport()
 
 
 # Vectors of the device, and what a simulator makes of a contact.

@@ -2,6 +2,7 @@
 // argil._native: what the package argil (python/argil) is made of. Nothing outside it calls this.
 #include <pybind11/pybind11.h>
 
+#include "bridge.h"
 #include "clay.h"
 #include "errors.h"
 #include "force.h"
@@ -17,4 +18,5 @@ PYBIND11_MODULE(_native, module) {
   argil::python::add_forces(module);
   argil::python::add_pictures(module);
   argil::python::add_lab(module);
+  argil::python::add_bridge(module);
 }
