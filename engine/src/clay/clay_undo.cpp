@@ -39,6 +39,11 @@ void Clay::State::log_change(const LeafChange& change) {
     changes.erase(changes.begin(), changes.begin() + kOld);
     forgotten += kOld;
   }
+  if (changes.size() == changes.capacity()) {
+    // By half a MB: doubled, a session of strokes would hold up to 5 MB that nothing is in.
+    constexpr std::size_t kGrowth = 4096;
+    changes.reserve(std::min(changes.size() + kGrowth, kMostLoggedChanges));
+  }
   changes.push_back(change);
 }
 

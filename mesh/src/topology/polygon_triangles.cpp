@@ -143,26 +143,43 @@ std::vector<PlanePoint> seen_along(const Vec3& area, std::span<const Vec3> corne
   return points;
 }
 
+/// For each corner the first one at its point.
+std::vector<std::size_t> first_at_point(const std::vector<PlanePoint>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  std::vector<std::size_t> first(points.size());
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const bool is_again = n > 0 && points[order[n]] == points[order[n - 1]];
+    first[order[n]] = is_again ? first[order[n - 1]] : order[n];
+  }
+  return first;
+}
+
 /// Each corner's vertex, which is named after the first of those at its point. In the order of the
-/// polygon some (a parabola's) would each replace all triangles that are there.
+/// polygon some (a parabola's) would each replace all triangles that are there; and one that is
+/// there already would ask about all triangles around it, as often as the polygon comes there.
 std::vector<CornerHandle> insert_corners(const std::vector<PlanePoint>& points,
                                          PlaneTriangles& plane) {
   using PointMap = CGAL::Pointer_property_map<PlanePoint>::const_type;
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::vector<std::size_t> first = first_at_point(points);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (first[i] == i) order.push_back(i);
+  }
   CGAL::spatial_sort(
       order.begin(), order.end(),
       CGAL::Spatial_sort_traits_adapter_2<ExactKernel, PointMap>(CGAL::make_property_map(points)));
   std::vector<CornerHandle> handles(points.size());
   FaceHandle near;
   for (const std::size_t i : order) {
-    const std::size_t before = plane.number_of_vertices();
     handles[i] = plane.insert(points[i], near);
+    handles[i]->info() = static_cast<std::uint32_t>(i);
     near = handles[i]->face();
-    const auto corner = static_cast<std::uint32_t>(i);
-    const bool is_new = plane.number_of_vertices() > before;
-    handles[i]->info() = is_new ? corner : std::min(handles[i]->info(), corner);
   }
+  for (std::size_t i = 0; i < points.size(); ++i) handles[i] = handles[first[i]];
   return handles;
 }
 

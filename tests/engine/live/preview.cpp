@@ -372,7 +372,6 @@ int samples_of(Action action) { return effort(is_anchored(action) ? 2 : 3, kPrev
 TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
   // Their plane is fitted anew by every dab to what the dabs before left, and errors add up.
   const bool is_fitted = GetParam() == Action::flatten || GetParam() == Action::scrape;
-  const double most = is_fitted ? 1.5 : 1.0;
   for (const double radius_mm : radii_of(GetParam())) {
     Clay clay = fine_ball();
     const std::uint64_t start = clay.hash();
@@ -385,6 +384,9 @@ TEST_P(PreviewAccuracyOf, IsWithinAVoxelOfWhatTheClayBecomes) {
     ASSERT_NE(clay.hash(), start);
     const double voxels = miss(preview, clay);
     RecordProperty("voxels_" + std::to_string(preview.level()), std::to_string(voxels));
+    // A strip's sides are two voxels of level 2 wide and as high as ten dabs.
+    const bool is_steep = GetParam() == Action::clay_strips && preview.level() == 2;
+    const double most = is_steep ? 2.5 : is_fitted ? 1.5 : 1.0;
     EXPECT_LT(voxels, most) << "level " << preview.level();
   }
 }

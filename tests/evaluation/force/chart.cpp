@@ -97,7 +97,8 @@ void expect_promise(const std::vector<CsvRow>& rows) {
     EXPECT_LE(csv_value(row, "shallow_error_p95_pct"), smooth ? 1.0 : 3.0) << scene;
     EXPECT_LE(csv_value(row, "direction_p99_deg"), 2.0) << scene;
     EXPECT_LE(csv_value(row, "torque_p95_pct"), 2.0) << scene;
-    EXPECT_LE(csv_value(row, "ripple_rms_p95_pct"), 0.5) << scene;
+    // Taps that stop at creases cost what is sharp some smoothness (docs/forces.md).
+    EXPECT_LE(csv_value(row, "ripple_rms_p95_pct"), smooth ? 0.5 : 0.55) << scene;
     EXPECT_LE(csv_value(row, "ripple_pp_max_pct"), 2.0) << scene;
   }
   EXPECT_GE(smooth_scenes, 6);  // plane, torus and both together, by lod and as the servo does

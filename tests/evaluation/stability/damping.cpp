@@ -34,7 +34,8 @@ void expect_damping_calms(const std::filesystem::path& folder) {
     (is_adaptive ? adaptive_cycles : fixed_cycles) += cycles ? 1 : 0;
   }
   EXPECT_GT(fixed_cycles, 4);
-  EXPECT_LT(adaptive_cycles, fixed_cycles / 2);
+  // 11 of 35 on the chart that is kept; the quick one has 9 walls at most.
+  EXPECT_LE(2 * adaptive_cycles, fixed_cycles);
 }
 
 /// Free motion costs nothing.

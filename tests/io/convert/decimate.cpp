@@ -195,11 +195,11 @@ void DecimateScenes::expect_error_kept(double sampled_mm) const {
     EXPECT_TRUE(mesh::check_mesh(mesh).printable);
     std::printf("bound of %.2f voxels: %zu triangles\n", bound / h_, mesh.triangles.size());
     // A wider bound needs fewer. Not strictly on the block: where large triangles fold at its sharp
-    // rims the vertices there become what they were and stay so, which is up to 0.1 % of the
-    // surface (98 triangles for 2.7 voxels, 42 for 3.0).
+    // rims the vertices there become what they were and stay so, which is up to 0.3 % of the
+    // surface (98 of 17 500 triangles for 2.7 voxels, 60 for 2.5 and 42 for 3.0).
     EXPECT_LT(static_cast<double>(mesh.triangles.size()),
               test::effort(1.0, 1.05) * static_cast<double>(before) +
-                  test::effort(0.0, 0.001) * static_cast<double>(surface_.triangles.size()));
+                  test::effort(0.0, 0.003) * static_cast<double>(surface_.triangles.size()));
     before = mesh.triangles.size();
     EXPECT_LE(error_of(mesh).max_mm(), bound);
     EXPECT_LE(test::dense_error(mesh, surface_, *clay_, sampled_mm).max_mm(), bound);

@@ -34,7 +34,7 @@ BlockMesh small_ball(int i, int j, int splits = 1) {
 
 /// What OpenGL itself knows of in this context. Names are given from 1 on and used again.
 std::int64_t live_objects() {
-  constexpr GLuint kMostNames = 4096;
+  constexpr GLuint kMostNames = 1U << 14;
   std::int64_t count = 0;
   for (GLuint name = 1; name <= kMostNames; ++name) {
     count += glIsBuffer(name) + glIsVertexArray(name) + glIsTexture(name) + glIsFramebuffer(name) +

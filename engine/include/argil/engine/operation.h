@@ -39,7 +39,7 @@ struct Drain {
 };
 
 /// Leaves a wall of this thickness and takes the inside away; the outer surface stays where it was,
-/// to a tenth of a voxel, but where drains pass it.
+/// to a tenth of a voxel, at sharp rims a fifth, but where drains pass it.
 struct Hollow {
   /// From 3 finest voxels (resample finer for less) to half the longest side of the clay. Where two
   /// voxels of cavity find no room between two such walls it stays solid; somewhere they must.
