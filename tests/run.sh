@@ -255,7 +255,7 @@ sanitize_addresses() { # "TARGETS" "LABELS LEFT OUT" [cmake options]
   stage "address and undefined-behaviour sanitizer: tests"
   # Tests in a window take a quarter of an hour there, and the program takes longer to build.
   LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp:print_suppressions=0" \
-    run_ctest asan "^(slow|client${2:+|$2})\$" -E '^Layering|_NOT_BUILT$|^View|^FirstSculptureGl'
+    run_ctest asan "^(slow|client${2:+|$2})\$" -E '^Layering|_NOT_BUILT$|^View|^(FirstSculpture|Sitting|StrokeModes)Gl'
   require_both asan
 }
 

@@ -421,7 +421,7 @@ TEST(MeshRepair, SaysWhatIsLostAndWhere) {
   TriangleMesh broken = clean_ball();
   broken.positions.insert(broken.positions.end(), {{0, 0, 15}, {0, 3, 16}});
   const auto top = static_cast<std::uint32_t>(broken.positions.size() - 2);
-  const auto& [a, b, c] = broken.triangles[77];
+  const auto [a, b, c] = broken.triangles[77];
   broken.triangles.push_back({a, b, top});
   broken.triangles.push_back({b, top + 1, top});
   const RepairReport fin = repaired(broken).report;

@@ -13,9 +13,9 @@ namespace {
 TEST(RepeatedTriangles, AreThoseOnTheVerticesOfAnEarlierOneWhicheverWayRound) {
   TriangleMesh mesh = test::box_mesh({1, 2, 3});
   EXPECT_TRUE(repeated_triangles(mesh).empty());
-  const auto& [a, b, c] = mesh.triangles[4];
+  const auto [a, b, c] = mesh.triangles[4];
   mesh.triangles.push_back({b, c, a});
-  mesh.triangles.push_back(mesh.triangles[7]);
+  mesh.triangles.push_back(Triangle(mesh.triangles[7]));
   mesh.triangles.push_back({c, b, a});
   mesh.triangles.push_back({a, a, b});  // like nothing else
   EXPECT_EQ(repeated_triangles(mesh), (std::vector<std::uint32_t>{12, 13, 14}));

@@ -46,7 +46,8 @@ PressureCurve in_range(PressureCurve curve) noexcept {
   auto& [first, second] = curve.points;
   curve.start = std::clamp(curve.start, 0.0, 1.0);
   first.x = std::clamp(first.x, kApart, 1.0 - 2.0 * kApart);
-  second.x = std::clamp(second.x, first.x + kApart, 1.0 - kApart);
+  // Not clamp: rounding may put the lower bound beyond the upper one.
+  second.x = std::min(std::max(second.x, first.x + kApart), 1.0 - kApart);
   first.y = std::clamp(first.y, curve.start, 1.0);
   second.y = std::clamp(second.y, first.y, 1.0);
   return curve;
