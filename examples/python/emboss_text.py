@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Embosses text: Matplotlib draws it, and its grey is how high the clay rises. Or sinks, with --sunk.
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The force that a ball feels at every place of a plane through a pebble with a bore, and its energy.
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How stiff a coupling may be before a stiff wall makes the hand vibrate, for every delay of the loop.
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Turns a curve into a vase: balls swept along its axis, carved out the same way, and twisted flutes.
 
