@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""examples/batch: a folder of meshes by two workers, one of them killed, files broken, run again."""
+"""examples/batch: a folder of meshes by two workers, one of them killed, files broken, run again.
+
+ARGIL_BATCH_MESHES=200 in the environment makes it as many meshes; -s then shows the times.
+"""
 import csv
 import html.parser
 import json
@@ -20,6 +23,8 @@ pytest.importorskip("distributed", reason="python3-distributed is not installed"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BATCH = ROOT / "examples/batch/argil_batch.py"
 BROKEN = {"cut.ply", "nothing.stl", "nan.obj"}
+MESHES = int(os.environ.get("ARGIL_BATCH_MESHES", "12"))
+SECONDS = 60 + 20 * MESHES  # after which a run hangs
 
 
 def write_meshes(folder, count):
@@ -69,6 +74,12 @@ def read_until(process, word):
     raise AssertionError("the batch ended before '%s':\n%s" % (word, "".join(lines)))
 
 
+def clock():
+    """Seconds of wall and of this process's finished children's CPU."""
+    spent = os.times()
+    return np.array([time.monotonic(), spent.children_user + spent.children_system])
+
+
 def report(out):
     with open(out / "report.csv", encoding="utf-8", newline="") as table:
         return {row["file"]: row for row in csv.DictReader(table)}
@@ -81,23 +92,24 @@ def stamps(out):
 
 @pytest.fixture(scope="module")
 def batch(tmp_path_factory):
-    """A run with 12 meshes and 3 broken files, one of whose workers was killed after the first print."""
+    """A run with MESHES meshes and 3 broken files, one of whose workers was killed after the first print."""
     folder = tmp_path_factory.mktemp("batch") / "meshes"
     out = folder.parent / "results"
-    write_meshes(folder, 12)
+    write_meshes(folder, MESHES)
+    began = clock()
     process = start(folder, out)
     lines = read_until(process, "printable")
     before = workers_of(process)
     os.kill(before[0], signal.SIGKILL)
-    lines += process.communicate(timeout=300)[0]
+    lines += process.communicate(timeout=SECONDS)[0]
     assert len(before) == 2, "the test looks for workers where there are none"
-    return folder, out, process.returncode, "".join(lines)
+    return folder, out, process.returncode, "".join(lines), clock() - began
 
 
 def test_a_killed_worker_loses_nothing(batch):
-    _, out, code, text = batch
+    _, out, code, text, _ = batch
     rows = report(out)
-    assert len(rows) == 15 and code == 1, text
+    assert len(rows) == MESHES + 3 and code == 1, text
     for name, row in rows.items():
         if name in BROKEN:
             continue
@@ -108,7 +120,7 @@ def test_a_killed_worker_loses_nothing(batch):
 
 
 def test_broken_files_say_why_and_stop_nobody(batch):
-    _, out, _, _ = batch
+    _, out, *_ = batch
     rows = report(out)
     assert {name for name, row in rows.items() if row["status"] == "failed"} == BROKEN
     for name in BROKEN:
@@ -116,7 +128,7 @@ def test_broken_files_say_why_and_stop_nobody(batch):
 
 
 def test_the_page_needs_no_other_file(batch):
-    _, out, _, _ = batch
+    _, out, *_ = batch
     pictures = []
 
     class Page(html.parser.HTMLParser):
@@ -126,22 +138,24 @@ def test_the_page_needs_no_other_file(batch):
             assert tag not in ("script", "link")
 
     Page().feed((out / "report.html").read_text(encoding="utf-8"))
-    assert len(pictures) == 12
+    assert len(pictures) == MESHES
     assert all(source.startswith("data:image/png;base64,") for source in pictures)
 
 
 def test_what_is_done_is_not_done_again(batch):
-    folder, out, _, _ = batch
-    before = stamps(out)
+    folder, out, _, _, first = batch
+    before, began = stamps(out), clock()
     again = subprocess.run(command(folder, out), capture_output=True, text=True, timeout=120)
-    assert again.returncode == 1 and "15 of them done before" in again.stdout
+    second = clock() - began
+    print(f"\nfirst {first[0]:.1f} s, CPU {first[1]:.1f} s; again {second[0]:.2f} s, CPU {second[1]:.2f} s")
+    assert again.returncode == 1 and f"{MESHES + 3} of them done before" in again.stdout
     assert stamps(out) == before
     # Touched is not changed; changed is, and so is what lost its output.
     os.utime(folder / "pebble000.stl")
     (folder / "nothing.stl").write_bytes((folder / "pebble000.stl").read_bytes())
     (out / "pebble001_ply.3mf").unlink()
     again = subprocess.run(command(folder, out), capture_output=True, text=True, timeout=120)
-    assert again.returncode == 1 and "13 of them done before" in again.stdout, again.stdout
+    assert again.returncode == 1 and f"{MESHES + 1} of them done before" in again.stdout, again.stdout
     rows = report(out)
     assert rows["nothing.stl"]["status"] == "printable"
     assert (out / "pebble001_ply.3mf").exists()
