@@ -43,7 +43,7 @@ def write_meshes(folder, count):
 
 def command(folder, out, *more, program=BATCH):
     return [sys.executable, "-u", str(program), str(folder), "-o", str(out), "--workers", "2",
-            "--resolution", "40", *more]
+            "--resolution", "48", "--wall-mm", "4", "--drain-mm", "2.5", *more]
 
 
 def start(*arguments, **more):
@@ -107,16 +107,19 @@ def batch(tmp_path_factory):
 
 
 def test_a_killed_worker_loses_nothing(batch):
-    _, out, code, text, _ = batch
+    folder, out, code, text, _ = batch
     rows = report(out)
     assert len(rows) == MESHES + 3 and code == 1, text
     for name, row in rows.items():
         if name in BROKEN:
             continue
-        assert row["status"] == "printable", row
+        assert row["status"] == "printable" and not row["message"], row
         mesh = argil.Mesh.load(out / row["output"])
         assert mesh.check()["printable"]
         assert mesh.volume_mm3 == pytest.approx(float(row["volume_mm3"]), rel=1e-6)
+        given = argil.Mesh.load(folder / name)
+        if given.check()["closed"]:
+            assert mesh.volume_mm3 < 0.9 * given.volume_mm3, "it is not hollow"
 
 
 def test_broken_files_say_why_and_stop_nobody(batch):
