@@ -165,7 +165,8 @@ def parse():
     add("--workers", type=int, default=max(1, (os.cpu_count() or 2) // 2), help="processes here")
     add("--memory-limit", default="2GB", help="of each; one that needs more is ended")
     add("--scheduler", help="tcp://HOST:PORT of a cluster instead")
-    add("--threads", type=int, default=0, help="of Argil in each worker; 0: cores over workers, 1 with --scheduler")
+    add("--threads", type=int, default=0,
+        help="of Argil in each worker; 0: cores over workers, 1 with --scheduler")
     add("--again", action="store_true", help="tries what failed before once more")
     add("--unit", choices=("mm", "cm", "m", "in"), help="of files that state none")
     add("--wall-mm", type=float, default=2, help="of hollow prints; 0: solid")

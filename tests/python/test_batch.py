@@ -36,7 +36,8 @@ def write_meshes(folder, count):
         faces = pebble.faces[dice.random(len(pebble.faces)) > 0.01 * (k % 2)]
         mesh = argil.Mesh(pebble.vertices * dice.uniform(0.7, 1.3, 3), faces)
         mesh.save(folder / f"pebble{k:03}.{('stl', 'ply', 'obj')[k % 3]}")
-    (folder / "cut.ply").write_bytes((folder / "pebble001.ply").read_bytes()[:2000])
+    whole = (ROOT / "examples/pebble.ply").read_bytes()
+    (folder / "cut.ply").write_bytes(whole[:2000])
     (folder / "nothing.stl").write_bytes(b"solid nothing\n")
     (folder / "nan.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n")
 
@@ -92,7 +93,7 @@ def stamps(out):
 
 @pytest.fixture(scope="module")
 def batch(tmp_path_factory):
-    """A run with MESHES meshes and 3 broken files, one of whose workers was killed after the first print."""
+    """A run with MESHES meshes and BROKEN, one of whose workers was killed after the first print."""
     folder = tmp_path_factory.mktemp("batch") / "meshes"
     out = folder.parent / "results"
     write_meshes(folder, MESHES)
@@ -193,6 +194,18 @@ if __name__ == "__main__":
     assert "its worker died" in rows["deadly.stl"]["message"]
     assert (tmp_path / "deaths").read_text() == "xx"
     assert sum(row["status"] == "printable" for row in rows.values()) == 2
+
+
+def test_a_worker_that_needs_too_much_memory_is_ended(tmp_path):
+    write_meshes(tmp_path / "meshes", 0)
+    pebble = ROOT / "examples/pebble.ply"
+    (tmp_path / "meshes/pebble.ply").write_bytes(pebble.read_bytes())
+    process = start(tmp_path / "meshes", tmp_path / "out", "--memory-limit", "300MB",
+                    "--resolution", "900")
+    text = process.communicate(timeout=300)[0]
+    rows = report(tmp_path / "out")
+    assert process.returncode == 1 and len(rows) == 4, text
+    assert "out of memory" in rows["pebble.ply"]["message"]
 
 
 def test_ctrl_c_keeps_what_is_done(tmp_path):
