@@ -22,9 +22,10 @@ from .force import Forces, ForceWindow
 from .lab import Ticks, lab, read_recording, scenes
 from .mesh import Mesh, MeshLike
 from .picture import render, save_png
+from .threads import set_threads
 
 __all__ = [
     "BadInput", "Clay", "DeviceError", "DiskError", "Error", "ForceWindow", "Forces", "InternalError",
     "Mesh", "MeshLike", "OutOfMemory", "Picks", "Ticks", "__version__", "lab", "read_recording",
-    "render", "save_png", "scenes",
+    "render", "save_png", "scenes", "set_threads",
 ]

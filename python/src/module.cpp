@@ -9,10 +9,12 @@
 #include "lab.h"
 #include "mesh.h"
 #include "picture.h"
+#include "work.h"
 
 PYBIND11_MODULE(_native, module) {
   module.attr("__version__") = ARGIL_VERSION;
   argil::python::add_errors(module);
+  argil::python::add_threads(module);
   argil::python::add_meshes(module);
   argil::python::add_clay(module);
   argil::python::add_forces(module);

@@ -1,12 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "work.h"
 
+#include <memory>
+#include <string>
+
+#include <tbb/global_control.h>
+
 namespace argil::python {
 namespace {
 
 constexpr std::chrono::milliseconds kAskEvery{50};
+constexpr int kMostThreads = 1024;
+
+/// The interpreter is held, so that one thread at a time comes here. Left to the end of the
+/// process: TBB may be gone before statics are.
+void set_threads(int threads) {
+  static tbb::global_control* limit = nullptr;
+  if (threads < 0 || threads > kMostThreads) {
+    raise_bad_input("threads is " + std::to_string(threads) + "; give 1 to " +
+                    std::to_string(kMostThreads) + ", or 0 for as many as there are cores");
+  }
+  std::unique_ptr<tbb::global_control> next;
+  if (threads > 0) {
+    next = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                 static_cast<std::size_t>(threads));
+  }
+  // The least of all limits counts, so the one before has to go.
+  const std::unique_ptr<tbb::global_control> former(limit);
+  limit = next.release();
+}
 
 }  // namespace
+
+void add_threads(py::module_& module) {
+  module.def("set_threads", &set_threads, py::arg("threads"));
+}
 
 bool SignalWatch::goes_on() {
   if (has_thrown_) return false;

@@ -48,6 +48,9 @@ auto run(Work&& work) {
   return value_of(std::move(result));
 }
 
+/// Adds set_threads.
+void add_threads(py::module_& module);
+
 /// Something that one thread at a time may work with, without the interpreter: others wait for it.
 ///
 /// Errors   a thread that holds it already, as a handler of a signal may, gets BadInput instead of
