@@ -8,10 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "argil/core/vec3.h"
 #include "argil/engine/display_surface.h"
 #include "argil/engine/stroke.h"
+#include "argil/engine/tool.h"
 
 #include "action/drag_push.h"
+#include "brush/motion.h"
 #include "field/mask.h"
 #include "live/drawn_by_leaf.h"
 

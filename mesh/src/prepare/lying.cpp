@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What comes to rest from all around, and which of that lies on most.
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "argil/core/triangle_mesh.h"
+#include "argil/core/vec3.h"
 #include "argil/mesh/print_orientation.h"
 
 #include "prepare/flat_hull.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

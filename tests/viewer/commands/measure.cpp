@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/measure.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
