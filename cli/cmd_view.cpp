@@ -29,7 +29,10 @@ nlohmann::json json_of(const std::vector<viewer::ViewMeasurement>& measurements)
   for (const viewer::ViewMeasurement& each : measurements) {
     nlohmann::json points = nlohmann::json::array();
     for (const Vec3& p : each.points_mm) points.push_back({p.x, p.y, p.z});
-    list.push_back({{"kind", each.kind}, {"value", each.value}, {"points_mm", points}});
+    list.push_back({{"kind", each.kind},
+                    {"value", each.value},
+                    {"points_mm", points},
+                    {"is_current", each.is_current}});
   }
   return list;
 }

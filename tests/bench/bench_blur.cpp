@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How much of the picture is not yet what it will be 100 ms after a dab: strokes with tools of
 // several sizes on a ball whose finest level is everywhere, drawn as the window draws them, the
-// picture of that moment against the one once the clay has done everything. Prints a markdown
-// table. Usage: bench_blur
+// picture of that moment against that of the clay when the stroke has ended there and everything
+// is done. Prints a markdown table. Usage: bench_blur [LEAST_RADIUS_MM]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "argil/io/project_file.h"
+#include "argil/io/stroke_script.h"
 
 #include "bench/clock.h"
 #include "bench/quantile.h"
@@ -98,15 +99,10 @@ class Watched {
     if (!news.empty()) draw();
     return !news.empty();
   }
-  /// While a large tool is held its preview keeps the thread at work: no news for long is the end.
-  /// What is shown then may still be the preview, so that only the last column is of the clay.
   void settle() {
-    constexpr double kQuietMs = 300.0;
-    double last_ms = wall_ms();
     do {
-      if (take()) last_ms = wall_ms();
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } while (!thread_.is_idle() && wall_ms() < last_ms + kQuietMs);
+      if (!take()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (!thread_.is_idle());
   }
   void draw() {
     viewer::Picture picture;
@@ -139,44 +135,70 @@ double differing_percent(const Image& a, const Image& b) {
   return 100.0 * static_cast<double>(count) / static_cast<double>(pixels);
 }
 
+/// What was seen of one stroke 100 ms after its last dab, while the tool is still held, and 100 ms
+/// after its end, against the clay: all of it worked off, its blocks drawn anew.
+struct Seen {
+  double held = 0.0;
+  double ended = 0.0;
+};
+
+/// The stroke as far as `dabs`, each dab followed by 100 ms; then it is taken back.
+Seen seen_of(Watched& window, const Tool& tool, int dabs) {
+  window.thread().send(viewer::BeginStroke{tool, {}});
+  Seen seen;
+  Image held;
+  for (int n = 0; n < dabs; ++n) {
+    const double turn = 0.03 * n - 0.36;
+    const Vec3 place = kBallMm * Vec3{std::sin(turn), -std::cos(turn), 0.1};
+    window.thread().send(viewer::ExtendStroke{{{0.1 * n, place, {}, 1.0}}, 0.0});
+    held = window.after(kAfterMs);
+  }
+  window.thread().send(viewer::EndStroke{});
+  const Image ended = window.after(kAfterMs);
+  const Image clay = window.settled();
+  window.thread().send(viewer::DoStep{io::HistoryStep::undo});
+  window.settled();
+  return {differing_percent(held, clay), differing_percent(ended, clay)};
+}
+
 void stroke(Watched& window, Action action, const char* name, double radius_mm, double strength) {
   Tool tool;
   tool.action = action;
   tool.radii_mm = {radius_mm, radius_mm, radius_mm};
   tool.strength = strength;
-  std::vector<double> percent;
-  window.thread().send(viewer::BeginStroke{tool, {}});
-  for (int n = 0; n < kDabs; ++n) {
-    const double turn = 0.03 * n - 0.36;
-    const Vec3 place = kBallMm * Vec3{std::sin(turn), -std::cos(turn), 0.1};
-    window.thread().send(viewer::ExtendStroke{{{0.1 * n, place, {}, 1.0}}, 0.0});
-    const Image then = window.after(kAfterMs);
-    const Image last = window.settled();
-    percent.push_back(differing_percent(then, last));
+  std::vector<double> held;
+  std::vector<double> ended;
+  for (int dabs = kDabs / 4; dabs <= kDabs; dabs += kDabs / 4) {
+    const Seen seen = seen_of(window, tool, dabs);
+    held.push_back(seen.held);
+    ended.push_back(seen.ended);
   }
-  window.thread().send(viewer::EndStroke{});
-  const Image then = window.after(kAfterMs);
-  const double at_end = differing_percent(then, window.settled());
-  std::printf("| %s, %.1f mm | %.3f | %.3f | %.3f |\n", name, radius_mm, quantile(percent, 0.5),
-              quantile(percent, 1.0), at_end);
+  std::printf("| %s, %.1f mm | %.3f | %.3f | %.3f | %.3f |\n", name, radius_mm, quantile(held, 0.5),
+              quantile(held, 1.0), quantile(ended, 0.5), quantile(ended, 1.0));
   std::fflush(stdout);
 }
 
 }  // namespace
 }  // namespace argil::bench
 
-int main() {
+int main(int count, char** arguments) {
   using namespace argil;
   using namespace argil::bench;
   Watched window;
   std::printf(
-      "Percent of all pixels that differ by more than %d of 255, %.0f ms after a dab; %d dabs.\n\n"
-      "| tool | median | worst | after the stroke's end |\n|---|---|---|---|\n",
-      kStepsSeen, kAfterMs, kDabs);
+      "Percent of all pixels that differ by more than %d of 255 from the clay once all of the\n"
+      "stroke is worked off; strokes of %d to %d dabs, 100 ms each.\n\n"
+      "| tool | 100 ms after a dab, median | worst | 100 ms after the end, median | worst |\n"
+      "|---|---|---|---|---|\n",
+      kStepsSeen, kDabs / 4, kDabs);
+  const double least_mm = count > 1 ? std::atof(arguments[1]) : 0.0;
   for (const double radius : {1.0, 3.0, 5.0, 8.0}) {
+    if (radius < least_mm) continue;
     stroke(window, Action::inflate, "Draw", radius, 0.4);
     stroke(window, Action::carve, "Carve", radius, 0.5);
     stroke(window, Action::smooth, "Smooth", radius, 0.5);
     stroke(window, Action::grab, "Grab", radius, 0.4);
+    stroke(window, Action::twist, "Twist", radius, 0.4);
+    stroke(window, Action::elastic, "Elastic", radius, 0.4);
   }
 }

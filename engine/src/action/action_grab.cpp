@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The push of one dab; stroke_motion.cpp adds the dabs and their images up.
+#include <memory>
 #include <optional>
 
 #include "action/action.h"
 #include "action/dab.h"
+#include "action/drag_push.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {
@@ -21,6 +23,8 @@ class GrabPush final : public Push {
 };
 
 }  // namespace
+
+std::unique_ptr<const Push> grab_push() { return std::make_unique<GrabPush>(); }
 
 void actions::grab(EditTarget& target, const Tool& tool, std::span<const Dab> path,
                    std::size_t images) {

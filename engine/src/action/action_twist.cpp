@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The push of one dab; stroke_motion.cpp adds the dabs and their images up.
+#include <memory>
+
 #include "action/action.h"
 #include "action/dab.h"
+#include "action/drag_push.h"
 #include "brush/stroke_motion.h"
 
 namespace argil {
@@ -31,6 +34,8 @@ class TwistPush final : public Push {
 };
 
 }  // namespace
+
+std::unique_ptr<const Push> twist_push() { return std::make_unique<TwistPush>(); }
 
 void actions::twist(EditTarget& target, const Tool& tool, std::span<const Dab> path,
                     std::size_t images) {

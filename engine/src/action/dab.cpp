@@ -155,18 +155,6 @@ void apply_dab(EditTarget& target, const Tool& tool, std::span<const Dab> dabs,
   std::visit(DabOfKind(target, std::move(posed), images), function_of(tool.action));
 }
 
-bool can_be_carried(Action action) noexcept {
-  switch (action) {
-    case Action::grab:
-    case Action::twist:
-    case Action::elastic:
-    case Action::slide:
-      return true;
-    default:
-      return false;
-  }
-}
-
 void apply_path(EditTarget& target, const Tool& tool, std::span<const Dab> path,
                 std::size_t images) {
   assert(is_anchored(tool.action) && images > 0 && path.size() % images == 0);

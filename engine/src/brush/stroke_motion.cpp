@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -144,6 +145,12 @@ std::vector<PosedTool> posed_along(const Tool& tool, std::span<const Dab> path) 
   std::vector<PosedTool> dabs;
   for (const Dab& dab : path) dabs.emplace_back(tool, dab);
   return dabs;
+}
+
+std::unique_ptr<const Motion> motion_along(std::vector<PosedTool> dabs, std::size_t images,
+                                           const Push& push, const Mask* mask) {
+  assert(images > 0 && !dabs.empty() && dabs.size() % images == 0);
+  return std::make_unique<AlongStroke>(std::move(dabs), images, push, mask);
 }
 
 void move_along(EditTarget& target, std::vector<PosedTool> dabs, std::size_t images, int tool_level,

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "brush/motion.h"
 #include "edit/edit.h"
+#include "field/mask.h"
 #include "tool/posed_tool.h"
 
 namespace argil {
@@ -29,6 +32,11 @@ class Push {
 /// left it.
 void move_along(EditTarget& target, std::vector<PosedTool> dabs, std::size_t images, int tool_level,
                 const Push& push);
+
+/// The map of space by which `move_along` moves matter. `push` must outlive it, and `mask`, which
+/// holds matter and may be null.
+std::unique_ptr<const Motion> motion_along(std::vector<PosedTool> dabs, std::size_t images,
+                                           const Push& push, const Mask* mask);
 
 /// The dabs of an anchored action as tools.
 std::vector<PosedTool> posed_along(const Tool& tool, std::span<const Dab> path);

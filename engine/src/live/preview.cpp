@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A preview is a clay of its own, made of copies of the coarser levels, and the blocks that are
-// drawn of it: the clay's own with their vertices moved, or others in their place.
+// drawn of it: the clay's own with their vertices moved or dragged along, or others in their place.
 #include "argil/engine/preview.h"
 
 #include <algorithm>
@@ -13,12 +13,13 @@
 #include <variant>
 #include <vector>
 
-#include "action/dab.h"
+#include "action/drag_push.h"
 #include "brush/dab_plan.h"
 #include "clay/clay_access.h"
 #include "clay/clay_state.h"
 #include "edit/edge_rounding.h"
 #include "field/mask.h"
+#include "live/dragged_blocks.h"
 #include "live/moved_blocks.h"
 #include "live/sketch_blocks.h"
 #include "surface/display_access.h"
@@ -60,8 +61,10 @@ Result<void> validate_tool_voxels(double tool_voxels) {
 }
 
 /// Whether it makes surface where there was none, or takes matter far along: then vertices that
-/// only follow the field's values would not show it.
+/// only follow the field's values would not show it, and where nothing else tells where they go,
+/// other blocks stand in their place.
 bool makes_surface(Action action) {
+  if (drag_push_of(action) != nullptr) return false;
   return is_stamped(action) || can_be_carried(action) || action == Action::snake_hook ||
          action == Action::trim || action == Action::emboss;
 }
@@ -93,13 +96,16 @@ void put_in_order(BlockLists& lists) {
 }  // namespace
 
 struct Preview::State {
-  State(const Clay& of, const DisplaySurface& shown, const Tool& tool, int at_level)
+  State(const Clay& of, const DisplaySurface& shown, const Tool& tool, const StrokeStyle& style,
+        int at_level)
       : clay(coarse_clay(of, tool, at_level)),
         before(coarse_levels(of, at_level)),
         level(at_level),
         revision(argil::revision(clay)) {
     assert(level > 0);
-    if (makes_surface(tool.action)) {
+    if (drag_push_of(tool.action) != nullptr) {
+      blocks.emplace<DraggedBlocks>(shown, tool, style, levels_of(clay).mask());
+    } else if (makes_surface(tool.action)) {
       blocks.emplace<SketchBlocks>(shown, before, clay, level);
     } else {
       blocks.emplace<MovedBlocks>(shown, before, clay, level);
@@ -114,6 +120,7 @@ struct Preview::State {
     if (auto* const sketch = std::get_if<SketchBlocks>(&blocks)) {
       made = sketch->update(changes, lists);
     }
+    if (auto* const dragged = std::get_if<DraggedBlocks>(&blocks)) made = dragged->update(lists);
     put_in_order(lists);
     revision = argil::revision(clay);
     return made;
@@ -122,6 +129,7 @@ struct Preview::State {
   DisplayBlock block(const BlockId& id) const {
     if (const auto* const moved = std::get_if<MovedBlocks>(&blocks)) return moved->block(id);
     if (const auto* const sketch = std::get_if<SketchBlocks>(&blocks)) return sketch->block(id);
+    if (const auto* const dragged = std::get_if<DraggedBlocks>(&blocks)) return dragged->block(id);
     return {};
   }
 
@@ -129,7 +137,7 @@ struct Preview::State {
   Clay before;
   int level;
   std::uint64_t revision;  // of the clay, when the blocks were brought up to date
-  std::variant<std::monostate, MovedBlocks, SketchBlocks> blocks;
+  std::variant<std::monostate, MovedBlocks, SketchBlocks, DraggedBlocks> blocks;
   BlockLists lists;
 };
 
@@ -173,7 +181,7 @@ Result<std::optional<Preview>> Preview::begin(const Clay& clay, const DisplaySur
     const std::int64_t copy = leaf_bytes(levels_of(clay), level);
     const std::int64_t takes = 2 * copy + mask_bytes(levels_of(clay));
     if (takes >= free) throw OverLimit(takes);
-    auto state = std::make_unique<State>(clay, shown, tool, level);
+    auto state = std::make_unique<State>(clay, shown, tool, style, level);
     if (auto ok = state->clay.set_limits({.undo_bytes = 0, .memory_bytes = free - copy}); !ok) {
       return ok.error();
     }
@@ -185,10 +193,28 @@ Result<std::optional<Preview>> Preview::begin(const Clay& clay, const DisplaySur
 }
 
 Result<int> Preview::extend(std::span<const StrokeSample> samples) {
-  return state_->clay.extend_stroke(samples);
+  Result<int> extended = state_->clay.extend_stroke(samples);
+  auto* const dragged = std::get_if<DraggedBlocks>(&state_->blocks);
+  if (!extended || dragged == nullptr) return extended;
+  try {
+    dragged->feed(samples);
+    return extended;
+  } catch (const std::bad_alloc& fault) {
+    return out_of_memory(fault, "draw the preview");
+  }
 }
 
-Result<StrokeReport> Preview::end() { return state_->clay.end_stroke(); }
+Result<StrokeReport> Preview::end() {
+  Result<StrokeReport> ended = state_->clay.end_stroke();
+  auto* const dragged = std::get_if<DraggedBlocks>(&state_->blocks);
+  if (!ended || dragged == nullptr) return ended;
+  try {
+    dragged->finish();
+    return ended;
+  } catch (const std::bad_alloc& fault) {
+    return out_of_memory(fault, "draw the preview");
+  }
+}
 
 int Preview::level() const noexcept { return state_->level; }
 const Clay& Preview::clay() const noexcept { return state_->clay; }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "argil/engine/field_sampler.h"
 #include "argil/engine/preview.h"
 #include "argil/engine/surface.h"
 
@@ -131,7 +132,7 @@ TEST(PreviewSurface, IsClosedWhereTheClayIsDrawnCoarser) {
     const Stroke stroke = large_stroke(action, 3);
     Preview preview = preview_of(clay, stroke, shown);
     // Level 1 is hidden: what makes surface is shown at level 2.
-    EXPECT_EQ(preview.level(), action == Action::inflate ? 1 : 2);
+    EXPECT_EQ(preview.level(), action == Action::carve ? 2 : 1);
     DrawnCopies drawn = shown_copies(shown);
     for (const StrokeSample& sample : stroke.samples) {
       follow_preview(drawn, preview, {&sample, 1});
@@ -159,7 +160,7 @@ TEST(PreviewSurface, MakesNoPreviewWhereTheClayIsDrawnTooCoarseForTheTool) {
 TEST(PreviewSurface, MeetsTheClayWithinAVoxel) {
   const Clay clay = fine_ball();
   const DisplaySurface shown = drawn_of(clay);
-  for (const Action action : {Action::carve, Action::add, Action::grab}) {
+  for (const Action action : {Action::carve, Action::add}) {
     const Stroke stroke = large_stroke(action);
     Preview preview = preview_of(clay, stroke, shown);
     ASSERT_TRUE(preview.extend(stroke.samples).ok());
@@ -186,7 +187,8 @@ TEST(PreviewSurface, MeetsTheClayWithinAVoxel) {
 TEST(PreviewSurface, HasTheSameBitsWhateverUpdatesLedThere) {
   const Clay clay = fine_ball();
   const DisplaySurface shown = drawn_of(clay);
-  for (const Action action : {Action::inflate, Action::smooth, Action::carve}) {
+  for (const Action action :
+       {Action::inflate, Action::smooth, Action::carve, Action::grab, Action::twist}) {
     const Stroke stroke = large_stroke(action, 4);
     Preview often = preview_of(clay, stroke, shown);
     DrawnCopies drawn = shown_copies(shown);
@@ -354,6 +356,77 @@ TEST_P(PreviewDetailOf, IsDrawnBesideTheTool) {
   EXPECT_GT(now, 0.95 * kept);
   EXPECT_GT(now, 0.9);
 }
+
+/// How far vertices lie from a clay and how far their normals lean from the clay's.
+struct PreviewMiss {
+  double most_mm = 0.0;
+  double mean_mm = 0.0;
+  double mean_lean = 0.0;  ///< length of the difference of unit vectors
+};
+
+/// Of the vertices that differ from those before; without these, of all.
+PreviewMiss preview_miss(const DrawnCopies& drawn, const DrawnCopies& before, const Clay& clay) {
+  PreviewMiss miss;
+  double count = 0.0;
+  FieldSampler field(clay);
+  for (const auto& [id, copy] : drawn) {
+    const auto was = before.find(id);
+    for (std::size_t n = 0; n < copy.vertices.size(); ++n) {
+      if (was != before.end() && copy.vertices[n] == was->second.vertices[n]) continue;
+      const auto& p = copy.vertices[n].position_mm;
+      const auto& lean = copy.vertices[n].normal;
+      const FieldValue at = field.value({double{p[0]}, double{p[1]}, double{p[2]}});
+      const Vec3 normal{double{lean[0]}, double{lean[1]}, double{lean[2]}};
+      miss.most_mm = std::max(miss.most_mm, std::abs(at.distance_mm));
+      miss.mean_mm += std::abs(at.distance_mm);
+      miss.mean_lean += length(normal - normalized(at.gradient));
+      count += 1.0;
+    }
+  }
+  EXPECT_GT(count, 1000.0);
+  miss.mean_mm /= count;
+  miss.mean_lean /= count;
+  return miss;
+}
+
+class PreviewDragOf : public testing::TestWithParam<Action> {};
+
+/// With mirror images, and with a mask as well, which a preview has coarser: every vertex lies on
+/// the clay that the stroke leaves, to a fraction of its finest voxel and not of the preview's.
+TEST_P(PreviewDragOf, TakesVerticesWhereTheClayIsTaken) {
+  for (const bool is_masked : {false, true}) {
+    Stroke stroke = large_stroke(GetParam());
+    stroke.mirror.z = true;
+    Clay clay = fine_ball();
+    const Stroke mask = stroke_of(Action::mask, 3.0, 1.0, {{5.0, 5.0, 0.0}, {4.0, 6.0, 0.0}});
+    if (is_masked) {
+      ASSERT_TRUE(clay.apply(mask).ok());
+    }
+    const DisplaySurface shown = drawn_of(clay);
+    const DrawnCopies before = shown_copies(shown);
+    Preview preview = preview_of(clay, stroke, shown);
+    DrawnCopies drawn = before;
+    for (const StrokeSample& sample : stroke.samples) follow_preview(drawn, preview, {&sample, 1});
+    ASSERT_TRUE(preview.end().ok());
+    ASSERT_TRUE(preview.update_surface().ok());
+    follow_preview(drawn, preview);
+    ASSERT_TRUE(clay.apply(stroke).ok());
+    const PreviewMiss miss = preview_miss(drawn, before, clay);
+    const std::string name = is_masked ? "masked_" : "free_";
+    RecordProperty(name + "most_voxels", std::to_string(miss.most_mm / kPreviewVoxelMm));
+    RecordProperty(name + "mean_voxels", std::to_string(miss.mean_mm / kPreviewVoxelMm));
+    // Those that are drawn of the clay itself lean as well from the slope between its nodes.
+    const PreviewMiss own = preview_miss(shown_copies(drawn_of(clay)), {}, clay);
+    RecordProperty(name + "mean_lean", std::to_string(miss.mean_lean));
+    RecordProperty(name + "mean_lean_of_the_clay", std::to_string(own.mean_lean));
+    EXPECT_LT(miss.most_mm, (is_masked ? 1.0 : 0.5) * kPreviewVoxelMm);
+    EXPECT_LT(miss.mean_mm, (is_masked ? 0.05 : 0.03) * kPreviewVoxelMm);
+    EXPECT_LT(miss.mean_lean, own.mean_lean + 0.03);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Actions, PreviewDragOf, testing::Values(Action::grab, Action::twist),
+                         preview_name_of);
 
 /// Not of clay_strips: the corners of its square tip lie there.
 INSTANTIATE_TEST_SUITE_P(Actions, PreviewDetailOf,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/measure.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -354,6 +355,61 @@ TEST_F(MeasureTest, AMeasurementGoesWithItsPieceAndIsOfOneClayAlone) {
   document_.send(NewClay{{io::StartShape::Kind::ball, {5.0, 0.0, 0.0}, {}}, false});
   settle();
   EXPECT_TRUE(ui_.measures.list.empty());
+}
+
+TEST_F(MeasureTest, ANumberIsMarkedWhileTheClayUnderItIsNotAsItWas) {
+  perform(Command::measure_distance, ui_, document_);
+  click(left_);
+  click(right_);
+  perform(Command::measure_thickness, ui_, document_);
+  click(top_);
+  ASSERT_EQ(ui_.measures.list.size(), 2U);
+  EXPECT_TRUE(is_current(ui_.measures.list[0]));
+  const auto carve = [&](const Vec3& place, Action action) {
+    Tool tool;
+    tool.action = action;
+    tool.radii_mm = {2.0, 2.0, 2.0};
+    document_.send(BeginStroke{tool, {}});
+    document_.send(ExtendStroke{{{0.0, place, {}, 1.0}}, 0.0});
+    document_.send(EndStroke{});
+    settle();
+  };
+  carve(on_ball(right_), Action::carve);
+  EXPECT_FALSE(is_current(ui_.measures.list[0]));
+  EXPECT_TRUE(is_current(ui_.measures.list[1])) << "of other clay";
+  const auto labels = measure_marks(ui_, parts_of(ui_.camera, false)[0]).labels;
+  EXPECT_EQ(std::count_if(labels.begin(), labels.end(),
+                          [](const MeasureLabel& label) { return label.text.ends_with(" ?"); }),
+            1);
+  document_.send(DoStep{io::HistoryStep::undo});
+  settle();
+  EXPECT_TRUE(is_current(ui_.measures.list[0]));
+  carve(on_ball(left_), Action::add);  // covered
+  EXPECT_FALSE(is_current(ui_.measures.list[0]));
+}
+
+TEST_F(MeasureTest, AMeasurementComesBackWithItsPieceButNotWithAnotherOne) {
+  perform(Command::measure_distance, ui_, document_);
+  click(left_);
+  click(right_);
+  const double before = value(0);
+  const std::string name = ui_.clay.pieces->active_piece().look.name;
+  document_.send(AddBallPiece{});
+  document_.send(DoStep{PieceEdit{RemovePiece{name}}});
+  settle();
+  EXPECT_FALSE(places_of(ui_.measures.list.at(0).points, ui_));
+  document_.send(DoStep{io::HistoryStep::undo});
+  settle();
+  EXPECT_EQ(value(0), before);
+  document_.send(DoStep{io::HistoryStep::redo});
+  settle();
+  EXPECT_FALSE(places_of(ui_.measures.list.at(0).points, ui_));
+  // Another piece of that name.
+  ChangePiece rename{ui_.clay.pieces->active_piece().look.name};
+  rename.new_name = name;
+  document_.send(DoStep{PieceEdit{rename}});
+  settle();
+  EXPECT_FALSE(places_of(ui_.measures.list.at(0).points, ui_));
 }
 
 TEST_F(MeasureTest, AToolOfTheBrushLeavesTheOneThatMeasures) {

@@ -194,6 +194,53 @@ TEST_F(DocumentPiecesTest, APieceStandsOnTheBedWithItsLowestPoint) {
   EXPECT_EQ(thread_.state().steps->names.size(), steps) << "it stands there already";
 }
 
+TEST_F(DocumentPiecesTest, APieceIsLaidOnTheLargestSideThatItCanRestOn) {
+  thread_.send(NewClay{{io::StartShape::Kind::block, {30.0, 20.0, 12.0}, {}}});
+  place("Clay", kTurned);
+  thread_.send(StandPiece{StandPiece::Where::flat});
+  const Sculpture sculpture = saved();
+  TriangleMesh mesh = extract_surface(sculpture.clay());
+  argil::place(sculpture.look(0).placement, mesh);
+  Box3 box;
+  for (const Vec3& p : mesh.positions) box.include(p);
+  EXPECT_NEAR(box.min.z, 0.0, 1e-9);
+  EXPECT_NEAR(box.size().z, 12.0, 0.02);
+  const auto steps = thread_.state().steps->names.size();
+  thread_.send(StandPiece{StandPiece::Where::flat});
+  settle_all();
+  EXPECT_EQ(thread_.state().steps->names.size(), steps) << "it lies so already";
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(DocumentPiecesTest, AllPiecesDropToTheBedTogether) {
+  open_two();
+  place("Clay", {{0.0, 0.0, 50.0}, {}});
+  place("Ball", {{40.0, 0.0, 90.0}, {}});
+  thread_.send(StandPiece{StandPiece::Where::all_on_bed});
+  settle_all();
+  EXPECT_NEAR(piece("Clay").look.placement.position_mm.z, 20.0, 0.02);
+  EXPECT_NEAR(
+      piece("Ball").look.placement.position_mm.z - piece("Clay").look.placement.position_mm.z, 40.0,
+      1e-9);
+  // What is hidden stays, and what is locked is not torn from the others.
+  ChangePiece lock{"Ball"};
+  lock.is_locked = true;
+  edit(lock);
+  place("Clay", {{0.0, 0.0, 70.0}, {}});
+  thread_.send(StandPiece{StandPiece::Where::all_on_bed});
+  settle_all();
+  EXPECT_EQ(piece("Clay").look.placement.position_mm.z, 70.0);
+  const std::vector<std::string> told = errors();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("'Ball' is locked"), std::string::npos) << told[0];
+  ChangePiece hide{"Ball"};
+  hide.is_visible = false;
+  edit(hide);
+  thread_.send(StandPiece{StandPiece::Where::all_on_bed});
+  settle_all();
+  EXPECT_NEAR(piece("Clay").look.placement.position_mm.z, 20.0, 0.02);
+}
+
 TEST_F(DocumentPiecesTest, AHiddenPieceIsNotSculptedAndComesBackAsItIs) {
   open_two();
   ChangePiece hide{"Clay"};

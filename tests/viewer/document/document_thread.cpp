@@ -160,7 +160,10 @@ TEST_F(DocumentThreadTest, ALargeToolIsPreviewedAndEndsAsItsStroke) {
     std::this_thread::sleep_for(milliseconds(1));
   }
   EXPECT_TRUE(was_previewed);
-  EXPECT_FALSE(thread_.is_idle());
+  // Held still, it lets the thread sleep once the clay has followed.
+  follow(settle());
+  EXPECT_TRUE(thread_.state().is_stroke_open);
+  EXPECT_EQ(thread_.state().strokes, 0);
   thread_.send(EndStroke{});
   follow(settle());
   EXPECT_EQ(thread_.state().strokes, 1);

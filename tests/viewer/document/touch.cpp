@@ -35,5 +35,31 @@ TEST(Feel, SaysNothingOfAToolThatNoWindowServes) {
   EXPECT_FALSE(feel(clay, {{0.0, -20.0, 0.0}, {0.0, -1.0, 0.0}}, touch));
 }
 
+TEST(ShownForce, StaysUntilItHasMovedByHalfAPixelFromWhatWasDrawn) {
+  const FeltForce start{{0.0, 0.0, 0.0}, 3.0, {0.0, 0.0, 1.0}};
+  std::optional<FeltForce> shown = steadied(start, std::nullopt, 0.1, 2.0);
+  ASSERT_TRUE(shown);
+  // It creeps: each step is too small to be seen, but not all of them.
+  int redrawn = 0;
+  FeltForce now = start;
+  for (int n = 0; n < 100; ++n) {
+    now.tool_mm.x += 0.011;
+    const auto next = steadied(now, shown, 0.1, 2.0);
+    ASSERT_TRUE(next);
+    EXPECT_LT(length(next->tool_mm - now.tool_mm), 0.05);
+    redrawn += next->tool_mm == shown->tool_mm ? 0 : 1;
+    shown = next;
+  }
+  EXPECT_EQ(redrawn, 20);
+  now.force_n.z += 0.024;  // an arrow of 2 mm for each newton
+  EXPECT_EQ(steadied(now, now, 0.1, 2.0)->force_n, now.force_n);
+  EXPECT_NE(steadied(now, shown, 0.1, 2.0)->force_n, now.force_n);
+  now.force_n.z += 0.002;
+  EXPECT_EQ(steadied(now, shown, 0.1, 2.0)->force_n, now.force_n);
+  EXPECT_FALSE(steadied(std::nullopt, shown, 0.1, 2.0));
+  now.radius_mm = 4.0;
+  EXPECT_EQ(steadied(now, shown, 1e3, 0.0)->radius_mm, 4.0);
+}
+
 }  // namespace
 }  // namespace argil::viewer

@@ -108,5 +108,34 @@ TEST(Stereo, FramesABoxInEachHalf) {
   EXPECT_LT(camera.distance_mm(), 0.7 * in_stereo);
 }
 
+TEST(Stereo, FramesABoxWithinWhatPanelsLeaveFree) {
+  const Box3 box{{-30.0, -5.0, -30.0}, {30.0, 5.0, 30.0}};
+  const FreeRoom room{150.0, 20.0, 1060.0, 700.0};
+  for (const bool is_stereo : {false, true}) {
+    Camera camera;
+    camera.resize(1280, 720);
+    frame_in_each(camera, is_stereo, box, room);
+    EXPECT_EQ(camera.target_mm(), box.center());  // about which the view turns
+    for (const WindowPart& part : parts_of(camera, is_stereo)) {
+      for (unsigned c = 0; c < 8; ++c) {
+        const Vec3 corner{(c & 1U) != 0 ? box.max.x : box.min.x,
+                          (c & 2U) != 0 ? box.max.y : box.min.y,
+                          (c & 4U) != 0 ? box.max.z : box.min.z};
+        const Vec3 seen = test::projected(part.camera, corner);
+        EXPECT_GE(part.left + seen.x, room.left);
+        EXPECT_LE(part.left + seen.x, room.right);
+        EXPECT_GE(seen.y, room.top);
+        EXPECT_LE(seen.y, room.bottom);
+      }
+    }
+    // Not smaller than that asks for, unless panels leave next to nothing.
+    Camera whole = camera;
+    frame_in_each(whole, is_stereo, box);
+    EXPECT_GT(camera.distance_mm(), 1.05 * whole.distance_mm());
+    frame_in_each(camera, is_stereo, box, FreeRoom{639.0, 20.0, 641.0, 700.0});
+    EXPECT_LT(camera.distance_mm(), 5.0 * whole.distance_mm());
+  }
+}
+
 }  // namespace
 }  // namespace argil::viewer

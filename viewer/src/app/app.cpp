@@ -39,6 +39,7 @@ constexpr int kFramesToSettle = 3;  // of panels after an event: a list opens in
 // answer of the desktop.
 constexpr double kLiveS = 1.0 / 60.0;
 constexpr double kBarS = 0.05;
+constexpr double kPlotsS = 0.2;  // between pictures in which only a device's plots moved
 // While the camera turns, and so long after, a clay that takes longer to draw than this is drawn
 // with fewer triangles. A whole frame of a screen that is waited for takes 17 ms.
 constexpr double kMotionS = 0.15;
@@ -232,9 +233,12 @@ Result<void> App::frame() {
   ui_.measures.slice = ui_.measures.seen ? &*slice_ : nullptr;
   tick_haptics(now);
 
-  if (const auto shown = felt(); shown && !haptics_->is_running()) {
-    most_shown_n_ = std::max(most_shown_n_, length(shown->force_n));
+  const auto felt = this->felt();
+  if (felt && !haptics_->is_running()) {
+    most_shown_n_ = std::max(most_shown_n_, length(felt->force_n));
   }
+  shown_force_ = steadied(felt, shown_force_, ui_.camera.pixel_mm_at(ui_.camera.target_mm()),
+                          arrow_mm_per_n());
   if (auto turned = turn_table(); !turned) return turned;
   note_last_frame();
   note_motion(now);
@@ -250,12 +254,15 @@ Result<void> App::frame() {
   draw_panels();
   read_wanted_alphas();
   const bool has_new_panels = gui_.end_frame();
-  // What fades or was laid out anew goes on.
-  frames_to_settle_ = std::max(frames_to_settle_ - 1, has_new_panels ? 1 : 0);
+  owes_panels_ = owes_panels_ || has_new_panels;
+  const bool may_wait = may_panels_wait(now, has_news);
+  // What fades or was laid out anew goes on; the plots of a device always do.
+  const bool goes_on = has_new_panels && !haptics_->is_running();
+  frames_to_settle_ = std::max(frames_to_settle_ - 1, goes_on ? 1 : 0);
   keep_settings();
   note_measurements();
   const RendererCounts former = renderer_->counts();
-  if (auto shown = show(picture, has_new_panels); !shown) return shown;
+  if (auto shown = show(picture, owes_panels_ && !may_wait); !shown) return shown;
 
   const double end = window_->now_s();
   for (const double input : std::exchange(shown_inputs_s_, {})) {
@@ -270,6 +277,13 @@ Result<void> App::frame() {
   }
   next_frame_s_ = next_frame_s(now);
   return {};
+}
+
+/// A device's plots move all the time, and panels cannot be drawn without the picture below them.
+/// While the hand is still and nobody does anything, a few times a second are enough.
+bool App::may_panels_wait(double now_s, bool has_news) const {
+  return haptics_->is_running() && waits_for_events() && !has_news && frames_to_settle_ == 0 &&
+         now_s < shown_s_ + kPlotsS;
 }
 
 /// Of the strokes that a person remembers.
@@ -320,6 +334,8 @@ Result<void> App::show(const Picture& picture, bool has_new_panels) {
   is_at_rest_ = !is_exposed && !has_new_panels && shots_.empty() && !ui_.wants_screenshot &&
                 renderer_->holds(picture, width, height);
   if (is_at_rest_) return {};
+  owes_panels_ = false;
+  shown_s_ = window_->now_s();
   if (auto drawn = renderer_->draw(picture, 0, width, height); !drawn) {
     if (renderer_->counts().pictures == 0 || !shots_.empty()) return drawn;
     ui_.wants_screenshot = false;
@@ -498,7 +514,8 @@ void App::note_measurements() {
     auto places = places_of(each.points, ui_);
     if (!places) continue;
     const double value = measured(each.kind, *places);
-    report_.measurements.push_back({word_of(each.kind), value, std::move(*places)});
+    report_.measurements.push_back(
+        {word_of(each.kind), value, std::move(*places), is_current(each)});
   }
 }
 
@@ -649,6 +666,7 @@ void App::draw_panels() {
   draw_tools(ui_);
   draw_brush(ui_, document_);
   draw_view(ui_);
+  note_free_room(ui_);
   draw_info(ui_);
   draw_history(ui_, document_);
   draw_print(ui_, document_);

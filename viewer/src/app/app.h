@@ -45,6 +45,7 @@ class App {
   Result<void> frame();
   std::optional<std::pair<double, double>> recent_latency() const;
   bool waits_for_events() const;
+  bool may_panels_wait(double now_s, bool has_news) const;
   double wait_s() const;
   double next_frame_s(double now_s) const;
   Result<void> show(const Picture& picture, bool has_new_panels);
@@ -66,6 +67,7 @@ class App {
   void add_cut(Picture& picture) const;
   std::optional<Touch> touch() const;
   std::optional<FeltForce> felt() const;
+  double arrow_mm_per_n() const;
   void add_force(Picture& picture) const;
   void add_path(Picture& picture) const;
   void take_over_path(bool had_clay);
@@ -115,21 +117,24 @@ class App {
   // The last question about the pointer, so that it is not asked again with every frame.
   std::optional<Ray> asked_;
   std::optional<Touch> asked_touch_;
-  double most_shown_n_ = 0.0;         ///< without a device
-  bool has_new_blocks_ = false;       ///< since that question: its answer may be another now
-  double last_s_ = 0.0;               ///< when the last frame began
-  std::pair<int, int> refused_size_;  ///< of the last picture, if the driver could not draw it
-  std::int64_t lost_at_ = -1;         ///< ClayState::changes when all blocks were asked for again
-  bool is_at_rest_ = false;           ///< the last frame had nothing new to show
-  Lens seen_lens_;                    ///< of the last frame
-  Placement dragged_;                 ///< where the piece that is dragged was in it
-  double moved_s_ = 0.0;              ///< when it was last another one
-  bool in_motion_ = false;            ///< that was just now
-  bool is_fluent_ = true;             ///< all of the clay is drawn in less time than a turn needs
-  int frames_to_settle_ = 0;          ///< that follow each other without waiting for events
-  double next_frame_s_ = 0.0;         ///< when one is due without an event
-  std::int64_t framed_ = 0;           ///< ClayState::number of the clay that the camera has framed
-  std::int64_t framed_pieces_ = 0;    ///< ClayState::pieces_added that the camera has framed
+  double most_shown_n_ = 0.0;             ///< without a device
+  std::optional<FeltForce> shown_force_;  ///< as the last frame drew it
+  bool has_new_blocks_ = false;           ///< since that question: its answer may be another now
+  double last_s_ = 0.0;                   ///< when the last frame began
+  std::pair<int, int> refused_size_;      ///< of the last picture, if the driver could not draw it
+  std::int64_t lost_at_ = -1;       ///< ClayState::changes when all blocks were asked for again
+  bool is_at_rest_ = false;         ///< the last frame had nothing new to show
+  bool owes_panels_ = false;        ///< they look different from how they were drawn
+  double shown_s_ = 0.0;            ///< when the window was last drawn
+  Lens seen_lens_;                  ///< of the last frame
+  Placement dragged_;               ///< where the piece that is dragged was in it
+  double moved_s_ = 0.0;            ///< when it was last another one
+  bool in_motion_ = false;          ///< that was just now
+  bool is_fluent_ = true;           ///< all of the clay is drawn in less time than a turn needs
+  int frames_to_settle_ = 0;        ///< that follow each other without waiting for events
+  double next_frame_s_ = 0.0;       ///< when one is due without an event
+  std::int64_t framed_ = 0;         ///< ClayState::number of the clay that the camera has framed
+  std::int64_t framed_pieces_ = 0;  ///< ClayState::pieces_added that the camera has framed
   std::optional<PieceKey> active_piece_;  ///< of the last frame
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with

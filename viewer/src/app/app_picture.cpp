@@ -185,16 +185,18 @@ std::optional<SeenHalf> App::seen_half() const {
 }
 
 /// The force on the tool, and where it is felt.
+/// An arrow of 3 N is 8 % of the distance to the target long.
+double App::arrow_mm_per_n() const { return 0.08 * ui_.camera.distance_mm() / 3.0; }
+
 void App::add_force(Picture& picture) const {
-  const auto seen = felt();
+  const auto& seen = shown_force_;
   if (!seen) return;
   const double force = length(seen->force_n);
   RingMark tool{seen->tool_mm, ui_.camera.lens({}).back, seen->radius_mm, {0.4, 0.8, 1.0}, false};
   picture.rings.push_back(tool);
   if (force < 0.02) return;  // N: noise, whose direction says nothing
   const Vec3 direction = seen->force_n / force;
-  // An arrow of 3 N is 8 % of the distance to the target long.
-  const double mm_per_n = 0.08 * ui_.camera.distance_mm() / 3.0;
+  const double mm_per_n = arrow_mm_per_n();
   picture.arrows.push_back({seen->tool_mm, seen->tool_mm + force * mm_per_n * direction});
   tool.center_mm -= seen->radius_mm * direction;
   tool.normal = direction;

@@ -37,6 +37,8 @@ constexpr CommandInfo kCommands[] = {
     {Command::piece_duplicate, "Piece", "Duplicate", "Shift+D"},
     {Command::piece_remove, "Piece", "Remove", "Delete"},
     {Command::piece_bed, "Piece", "Drop to bed", "End"},
+    {Command::piece_bed_all, "Piece", "Drop all to bed", "Shift+End"},
+    {Command::piece_flat, "Piece", "Lay flat", "Alt+End"},
     {Command::piece_middle, "Piece", "Centre", "Ctrl+End"},
     {Command::piece_unite, "Piece", "Merge", "Ctrl+J"},
     {Command::piece_subtract, "Piece", "Subtract", "Ctrl+Shift+J"},
@@ -176,7 +178,7 @@ bool perform_on_view(Command command, UiState& ui) {
       look(ui, {0.0, 0.0, -1.0}, {0.0, -1.0, 0.0});
       return true;
     case Command::view_frame:
-      frame_in_each(ui.camera, ui.show.is_stereo, ui.clay.all_bounds_mm);
+      frame_in_each(ui.camera, ui.show.is_stereo, ui.clay.all_bounds_mm, ui.panels.room);
       return true;
     case Command::view_parallel:
       ui.camera.set_parallel(!ui.camera.is_parallel());
@@ -325,6 +327,12 @@ bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
     case Command::piece_bed:
       document.send(StandPiece{StandPiece::Where::bed});
       return true;
+    case Command::piece_bed_all:
+      document.send(StandPiece{StandPiece::Where::all_on_bed});
+      return true;
+    case Command::piece_flat:
+      document.send(StandPiece{StandPiece::Where::flat});
+      return true;
     case Command::piece_middle:
       document.send(StandPiece{StandPiece::Where::middle});
       return true;
@@ -354,6 +362,8 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
     case Command::piece_import:
     case Command::piece_duplicate:
     case Command::piece_bed:
+    case Command::piece_bed_all:
+    case Command::piece_flat:
     case Command::piece_middle:
       return has_pieces;
     case Command::piece_remove:

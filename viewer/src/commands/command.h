@@ -40,6 +40,8 @@ enum class Command {
   piece_duplicate,
   piece_remove,
   piece_bed,
+  piece_bed_all,
+  piece_flat,
   piece_middle,
   piece_unite,
   piece_subtract,

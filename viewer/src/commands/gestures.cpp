@@ -462,8 +462,8 @@ void Gestures::tick(double now_s) {
     ui_.guide.reset();
   const bool has_curve = ui_.outline && ui_.outline->form == DragForm::curve;
   if (has_curve && drag_form_of(ui_) != DragForm::curve) ui_.outline.reset();
-  // When the clay has done the last one, or so often: of a large tool it is never done before the
-  // stroke ends, and more would come later and later behind the hand.
+  // When the clay has done the last one, or so often: of a large tool that takes long, and more
+  // would come later and later behind the hand.
   constexpr double kLayEveryS = 0.1;
   const bool is_stale = stroke_ && stroke_->is_stale;
   if (is_stale && (document_.is_idle() || now_s >= stroke_->start_s + kLayEveryS)) {

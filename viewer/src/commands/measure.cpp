@@ -46,6 +46,13 @@ std::string measured_text(MeasureKind kind, double value) {
   return text;
 }
 
+bool is_current(const Measurement& measurement) noexcept {
+  const auto& kept = measurement.are_kept;
+  return std::all_of(kept.begin(),
+                     kept.begin() + static_cast<std::ptrdiff_t>(measurement.points.size()),
+                     [](bool is) { return is; });
+}
+
 Measurement* find_measurement(MeasureChoice& choice, std::int64_t number) {
   const auto found =
       std::find_if(choice.list.begin(), choice.list.end(),

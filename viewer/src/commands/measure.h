@@ -34,6 +34,7 @@ struct Measurement {
   MeasureKind kind = MeasureKind::distance;
   std::vector<MeasurePoint> points;
   std::array<bool, 3> are_seen{true, true, true};  ///< no clay lies before them
+  std::array<bool, 3> are_kept{true, true, true};  ///< the clay still lies there as it was picked
 };
 
 /// A point of a measurement.
@@ -62,6 +63,9 @@ struct MeasureChoice {
 double measured(MeasureKind kind, std::span<const Vec3> places);
 /// "12.34 mm", "45.0°"; lengths below a millimetre with three digits.
 std::string measured_text(MeasureKind kind, double value);
+
+/// Whether all its points still lie on the clay as they were picked.
+bool is_current(const Measurement& measurement) noexcept;
 
 /// The one with this number; null where it is gone.
 Measurement* find_measurement(MeasureChoice& choice, std::int64_t number);

@@ -292,6 +292,7 @@ void MeasureGestures::take_sight(const MeasureAnswer& answer) {
   Measurement* of = find_measurement(ui_.measures, end.number);
   if (of == nullptr || end.point >= of->points.size()) return;
   of->are_seen[end.point] = !answer.point || answer.distance_mm >= answer.far_enough_mm;
+  of->are_kept[end.point] = answer.is_kept;
 }
 
 void MeasureGestures::tick() {
@@ -309,9 +310,11 @@ void MeasureGestures::tick() {
              ui_.clay.pieces,        ui_.measures.seen,       ui_.measures.tool,
              ui_.measures.has_marks, ui_.measures.last_number};
   const bool is_new = looked_ != now;
+  const bool is_other_clay =
+      !looked_ || looked_->changes != now.changes || looked_->pieces != now.pieces;
   looked_ = std::move(now);
   ask_hover(is_new);
-  ask_sight(is_new);
+  ask_sight(is_new, is_other_clay);
 }
 
 void MeasureGestures::ask_hover(bool is_new) {
@@ -326,11 +329,12 @@ void MeasureGestures::ask_hover(bool is_new) {
   hover_chord_ = ask(kHoverQuestion, ui_.pointer);
 }
 
-/// Of those that are in the picture.
-void MeasureGestures::ask_sight(bool is_new) {
+/// Of those that are in the picture; once the clay is another one, of all, also whether it still
+/// lies there.
+void MeasureGestures::ask_sight(bool is_new, bool is_other_clay) {
   if (!is_new && asked_moves_ == moves_) return;
   asked_moves_ = moves_;
-  if (!ui_.measures.has_marks) return;
+  if (!ui_.measures.has_marks && !is_other_clay) return;
   const Camera& camera = ui_.camera;
   for (const Measurement& each : ui_.measures.list) {
     const auto places = places_of(each.points, ui_);
@@ -340,12 +344,12 @@ void MeasureGestures::ask_sight(bool is_new) {
       const Camera::Pixel at = camera.pixel_of(place);
       const bool is_inside =
           at.x >= 0.0 && at.y >= 0.0 && at.x <= camera.width() && at.y <= camera.height();
-      if (!is_inside && !ui_.show.is_stereo) continue;
+      if (!is_inside && !ui_.show.is_stereo && !is_other_clay) continue;
       const Ray ray = sight_of(camera, place);
       // A surface seen from its edge is met beside the point.
       const double slack = 2.0 * camera.pixel_mm_at(place) + ui_.clay.voxel_mm;
       document_.measure({sight_question({each.number, n}), ray, ui_.measures.seen, false,
-                         length(place - ray.origin_mm) - slack});
+                         length(place - ray.origin_mm) - slack, each.points[n]});
     }
   }
 }

@@ -81,7 +81,7 @@ class MeasureGestures {
   void take_end(const MeasureAnswer& answer);
   void take_sight(const MeasureAnswer& answer);
   void ask_hover(bool is_new);
-  void ask_sight(bool is_new);
+  void ask_sight(bool is_new, bool is_other_clay);
   std::optional<MeasureEnd> end_under(const Camera::Pixel& pixel) const;
   std::vector<MeasurePoint> points_of(const MeasureAnswer& answer,
                                       const std::optional<Chord>& chord, bool has_across) const;

@@ -44,17 +44,26 @@ struct ShownMeasure {
   bool is_complete = true;
   bool is_chosen = false;
   std::optional<std::size_t> under;  ///< the end under the pointer
+  bool is_current = true;
 };
 
 std::optional<ShownMeasure> shown_measure(const Measurement& each, const UiState& ui) {
   auto places = places_of(each.points, ui);
   if (!places) return std::nullopt;
   const MeasureChoice& choice = ui.measures;
-  ShownMeasure made{each.kind, std::move(*places), {}, true, choice.chosen == each.number, {}};
+  ShownMeasure made{each.kind, std::move(*places), {}, true, choice.chosen == each.number,
+                    {},        is_current(each)};
   made.are_seen.assign(each.are_seen.begin(),
                        each.are_seen.begin() + static_cast<std::ptrdiff_t>(each.points.size()));
   if (choice.under && choice.under->number == each.number) made.under = choice.under->point;
   return made;
+}
+
+/// "12.34 mm", and a question mark where the clay under it is no longer what was measured.
+std::string text_of(const ShownMeasure& measure) {
+  std::string text = measured_text(measure.kind, measured(measure.kind, measure.places));
+  if (!measure.is_current) text += " ?";
+  return text;
 }
 
 /// Whether two points are nearly one on the screen: no line between them is worth a number.
@@ -225,8 +234,7 @@ MeasureMarks measure_marks(const UiState& ui, const WindowPart& part) {
         std::find(measure.are_seen.begin(), measure.are_seen.end(), true) != measure.are_seen.end();
     const auto at = label_place(measure, part, kBesidePixels * ui.panel_scale);
     if (!at) continue;
-    marks.labels.push_back({free_place(*at, marks.labels, ui.panel_scale),
-                            measured_text(measure.kind, measured(measure.kind, measure.places)),
+    marks.labels.push_back({free_place(*at, marks.labels, ui.panel_scale), text_of(measure),
                             is_seen, measure.is_chosen});
   }
   return marks;

@@ -28,6 +28,7 @@
 #include "picture/gizmo.h"
 #include "picture/renderer.h"
 #include "picture/slice_chord.h"
+#include "picture/stereo.h"
 
 namespace argil::viewer {
 
@@ -50,7 +51,9 @@ struct PanelState {
   bool has_tools = true;
   bool has_brush = true;
   bool has_view = true;
-  float view_top = 1e4F;  ///< pixels: where the view's panel began in the last frame
+  float view_top = 1e4F;         ///< pixels: where the view's panel began in the last frame
+  float tools_right = 0.0F;      ///< likewise, where the tools' ended
+  std::optional<FreeRoom> room;  ///< that menu, status line, tools, brush and view left then
   bool has_haptics = false;
   bool has_print = false;
   bool has_pieces = false;

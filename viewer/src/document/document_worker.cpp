@@ -361,6 +361,17 @@ Result<int> DocumentWorker::queue(const std::vector<StrokeSample>& samples) {
   return queued.value() - before;
 }
 
+bool DocumentWorker::has_backlog() {
+  if (preview_) return is_preview_ending_ || has_dabs_to_work();
+  return is_sketched_ || document_.has_unread_steps();
+}
+
+/// What the end of the stroke does anew is not worked before: that would only keep the preview, and
+/// then the end, waiting.
+bool DocumentWorker::has_dabs_to_work() {
+  return !can_be_carried(stroke_.tool.action) && document_.clay().waiting_dabs() > 0;
+}
+
 /// The clay itself changes here out of sight: there is something to show only when the stroke is
 /// done and the preview goes.
 bool DocumentWorker::work_backlog() {
@@ -370,10 +381,11 @@ bool DocumentWorker::work_backlog() {
     return true;
   }
   if (!preview_) return is_sketched_;
-  Clay& clay = document_.clay();
-  if (clay.waiting_dabs() > 0) {
-    if (auto worked = clay.work_stroke(); worked) return false;
-    end_open_stroke();  // says what is wrong
+  if (has_dabs_to_work()) {
+    const auto worked = document_.clay().work_stroke();
+    if (worked) return false;
+    complain(worked.error());
+    end_open_stroke();
     return true;
   }
   if (!is_preview_ending_) return false;
@@ -420,7 +432,10 @@ void DocumentWorker::on(const EndStroke&) {
 /// Ends the stroke that is open, if one is, and records it as a step unless it did nothing.
 void DocumentWorker::end_open_stroke() {
   Clay& clay = document_.clay();
-  if (!clay.is_stroke_open()) return;
+  if (!clay.is_stroke_open()) {
+    drop_preview();  // of one that was taken back for want of memory
+    return;
+  }
   const Result<StrokeReport> report = clay.end_stroke();
   assert(!clay.is_stroke_open());
   drop_preview();

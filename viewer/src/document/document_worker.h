@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "argil/core/triangle_mesh.h"
 #include "argil/engine/clay_worker.h"
 #include "argil/engine/preview.h"
 
@@ -43,8 +44,8 @@ class DocumentWorker {
 
   /// What is done when no request waits: a large stroke is shown as a preview, and dabs of the clay
   /// itself still wait; or a clay that has just come is shown by its coarse levels alone; or the
-  /// names of its older steps are not read.
-  bool has_backlog() const noexcept { return is_behind() || document_.has_unread_steps(); }
+  /// names of its older steps are not read. While a large tool is held still there is none.
+  bool has_backlog();
   /// Applies one of these dabs, or reads the names; true when there is something to show.
   bool work_backlog();
   /// Shown in detail it will be as the window sees it: worth waiting for the window to say so.
@@ -101,6 +102,7 @@ class DocumentWorker {
   Result<StrokeReport> move_in_history(io::HistoryStep move);
   bool apply_history(io::HistoryStep move);
   Result<int> queue(const std::vector<StrokeSample>& samples);
+  bool has_dabs_to_work();
   void drop_preview();
   void clay_changed_hands();
   void let_go_of_hand();
@@ -115,6 +117,10 @@ class DocumentWorker {
   void post_slice();
 
   void add_piece(const AddPiece& add);
+  std::optional<TriangleMesh> standing_surface(std::size_t piece);
+  void stand_at(std::size_t piece, const Placement& placement);
+  void stand_all_on_bed();
+  Placement laid_on_most(const TriangleMesh& surface, const Vec3& middle_mm);
   void post_merge(const PieceEdit& edit);
   bool may_touch_mask(const io::ScriptStep& step) const;
   void piece_list_changed() noexcept { is_list_stale_ = looks_at_all_ = true; }

@@ -80,4 +80,11 @@ std::optional<Vec3> far_side(const Clay& clay, const Vec3& point_mm, const Vec3&
   return back->point_mm;
 }
 
+bool is_still_there(const Clay& clay, const MeasurePoint& point) {
+  constexpr double kSurfaceVoxels = 0.5;
+  constexpr double kSliceVoxels = 2.0;  // its outline is read from a picture
+  const double voxels = clay.distance_at(point.own_mm) / clay.options().voxel_mm;
+  return point.is_within ? voxels < kSliceVoxels : std::abs(voxels) < kSurfaceVoxels;
+}
+
 }  // namespace argil::viewer

@@ -23,7 +23,8 @@ struct SeenHalf {
 struct MeasurePoint {
   PieceKey piece = 0;
   Vec3 own_mm;
-  Vec3 own_normal;  ///< unit, outward
+  Vec3 own_normal;         ///< unit, outward
+  bool is_within = false;  ///< picked in the material that a slice shows, not on the surface
   friend bool operator==(const MeasurePoint&, const MeasurePoint&) = default;
 };
 
@@ -34,6 +35,8 @@ struct MeasureQuestion {
   std::optional<SeenHalf> seen = {};
   bool wants_far_side = false;
   double far_enough_mm = 0.0;  ///< given back: of a point that is looked for, less some slack
+  /// Does the clay still lie there as it did when this was picked?
+  std::optional<MeasurePoint> kept = {};
 };
 
 struct MeasureAnswer {
@@ -43,6 +46,7 @@ struct MeasureAnswer {
   bool is_on_slice = false;            ///< in the material that a slice shows, not on the surface
   double far_enough_mm = 0.0;          ///< of the question
   std::optional<MeasurePoint> across;  ///< the far side, where it was asked for and there is one
+  bool is_kept = true;  ///< false: the clay at MeasureQuestion::kept went away, or covers it
 };
 
 /// The same, with the piece's place in the sculpture's list.
@@ -67,5 +71,9 @@ std::optional<MeasuredPick> measure_pick(const Sculpture& sculpture, const Ray& 
 /// than a hundredth of the finest voxel.
 /// Accuracy, threads, cost  as above, of two picks.
 std::optional<Vec3> far_side(const Clay& clay, const Vec3& point_mm, const Vec3& normal);
+
+/// Whether the surface still runs through a point that was picked on it, to half a finest voxel;
+/// of one in the material of a slice, whether there still is material, to two.
+bool is_still_there(const Clay& clay, const MeasurePoint& point);
 
 }  // namespace argil::viewer

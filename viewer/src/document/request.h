@@ -72,10 +72,11 @@ struct ImportPiece {
 };
 /// A copy of the active piece, in its place.
 struct DuplicatePiece {};
-/// Moves the active piece straight: its lowest point to z = 0, or the middle of the box around it
-/// to x = y = 0.
+/// Moves the active piece: its lowest point straight to z = 0; the middle of the box around it to x
+/// = y = 0; or turned so that it lies on the largest side that it can rest on, at z = 0. Or all
+/// visible pieces together straight, the lowest point of all to z = 0, one step for each.
 struct StandPiece {
-  enum class Where { bed, middle } where = Where::bed;
+  enum class Where { bed, middle, flat, all_on_bed } where = Where::bed;
 };
 
 /// Undo or redo as often as it takes until this many of ClayState::steps are done.

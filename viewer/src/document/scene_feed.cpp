@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "picture/piece_frame.h"
@@ -35,6 +36,7 @@ SceneNews SceneFeed::drop_all() {
   gone_.reserve(gone_.size() + followed_.size());  // all of them, or none is forgotten yet
   for (const auto& [clay, followed] : followed_) gone_.push_back(followed.key);
   followed_.clear();
+  former_.clear();
   is_fresh_ = true;
   SceneNews news;
   news.gone = std::exchange(gone_, {});
@@ -42,16 +44,31 @@ SceneNews SceneFeed::drop_all() {
 }
 
 void SceneFeed::forget_gone(const Sculpture& sculpture) {
-  std::set<const Clay*> here;
-  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) here.insert(&sculpture.clay(n));
+  std::map<const Clay*, std::size_t> here;
+  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) here[&sculpture.clay(n)] = n;
   for (auto at = followed_.begin(); at != followed_.end();) {
-    if (here.contains(at->first)) {
+    if (const auto found = here.find(at->first); found != here.end()) {
+      at->second.name = sculpture.look(found->second).name;
       ++at;
     } else {
       gone_.push_back(at->second.key);
+      former_[at->first] = {at->second.key, at->second.name};
       at = followed_.erase(at);
     }
   }
+  for (const auto& [clay, n] : here) {
+    if (!followed_.contains(clay)) take_back_key(*clay, sculpture.look(n).name);
+  }
+}
+
+/// Follows a piece that was not there before by the key that it had, if it ever had one.
+void SceneFeed::take_back_key(const Clay& clay, const std::string& name) {
+  const auto known = former_.find(&clay);
+  const bool is_back = known != former_.end() && known->second.name == name;
+  Followed& followed = follow(clay);
+  followed.name = name;
+  if (is_back) followed.key = known->second.key;
+  former_.erase(&clay);
 }
 
 Result<SceneNews> SceneFeed::update(const Sculpture& sculpture, const ViewOf& view_of,

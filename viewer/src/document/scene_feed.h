@@ -46,7 +46,8 @@ class SceneFeed {
 
   /// Of the piece that strokes go to.
   BlockFeed& active(const Sculpture& sculpture) { return follow(sculpture.clay()).feed; }
-  /// The number of a piece, by its clay: the same for as long as the piece is there.
+  /// The number of a piece, by its clay: the same for as long as the piece is there, and again when
+  /// undo or redo brings it back, so that what was measured on it is found there.
   PieceKey key_of(const Clay& clay) { return follow(clay).key; }
 
   /// The mask may differ anywhere, of any piece.
@@ -62,13 +63,22 @@ class SceneFeed {
  private:
   struct Followed {
     PieceKey key = 0;
+    std::string name;  ///< as of the last look at all
     BlockFeed feed;
+  };
+  struct Former {
+    PieceKey key = 0;
+    std::string name;
   };
   Followed& follow(const Clay& clay);
   void forget_gone(const Sculpture& sculpture);
+  void take_back_key(const Clay& clay, const std::string& name);
 
   /// Clays stay where they are for as long as a piece can be undone or repeated.
   std::map<const Clay*, Followed> followed_;
+  /// Pieces that went. The name too, since another clay may lie there once no step holds the
+  /// former.
+  std::map<const Clay*, Former> former_;
   std::vector<PieceKey> gone_;  ///< not told yet, also where what was to tell of them failed
   PieceKey next_key_ = 0;
   bool is_fresh_ = true;

@@ -44,4 +44,14 @@ std::optional<FeltForce> feel(const Clay& clay, const SurfaceHit& hit, const Tou
   return FeltForce{tool.position_mm, tool.radii_mm.x, result.contact_n};
 }
 
+std::optional<FeltForce> steadied(const std::optional<FeltForce>& now,
+                                  const std::optional<FeltForce>& before, double pixel_mm,
+                                  double arrow_mm_per_n) noexcept {
+  if (!now || !before || now->radius_mm != before->radius_mm) return now;
+  const double half = 0.5 * pixel_mm;
+  const bool is_still = length(now->tool_mm - before->tool_mm) < half &&
+                        arrow_mm_per_n * length(now->force_n - before->force_n) < half;
+  return is_still ? before : now;
+}
+
 }  // namespace argil::viewer

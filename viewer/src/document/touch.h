@@ -46,4 +46,12 @@ Vec3 pressed_position(const haptics::ForceTool& tool, const SurfaceHit& hit, dou
 /// flat. Threads  the document thread. Cost  reading the window, about a millisecond.
 std::optional<FeltForce> feel(const Clay& clay, const SurfaceHit& hit, const Touch& touch);
 
+/// What is drawn of a force: what was drawn `before`, until ring or arrow have moved by half a
+/// pixel. A hand that is held still trembles by less, and each new picture costs tens of
+/// milliseconds where no graphics card draws it. `pixel_mm`: of a pixel where it is drawn;
+/// `arrow_mm_per_n`: how long arrows are.
+std::optional<FeltForce> steadied(const std::optional<FeltForce>& now,
+                                  const std::optional<FeltForce>& before, double pixel_mm,
+                                  double arrow_mm_per_n) noexcept;
+
 }  // namespace argil::viewer

@@ -94,11 +94,17 @@ bool draw_measure_row(const Measurement& each, UiState& ui) {
     ui.measures.chosen = each.number;
   }
   ImGui::SameLine(118.0F * unit());
-  if (places) {
+  if (places && is_current(each)) {
     ImGui::TextUnformatted(value.c_str());
+  } else if (places) {
+    ImGui::TextDisabled("%s ?", value.c_str());
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("the clay there is no longer as it was: drag its ends, or measure anew");
+    }
   } else {
     ImGui::TextDisabled("%s", value.c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("its piece is hidden, or was removed");
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("its piece is hidden, or was removed: undo brings it back");
   }
   ImGui::SameLine(204.0F * unit());
   ImGui::BeginDisabled(!places);

@@ -296,7 +296,10 @@ void draw_place(UiState& ui, DocumentThread& document) {
   command_button(Command::piece_bed, "Drop to bed##piece", ui, document);
   ImGui::SameLine();
   command_button(Command::piece_middle, "Centre##piece", ui, document);
+  command_button(Command::piece_flat, "Lay flat##piece", ui, document);
   ImGui::EndDisabled();
+  ImGui::SameLine();
+  command_button(Command::piece_bed_all, "Drop all to bed##piece", ui, document);
 }
 
 }  // namespace

@@ -243,7 +243,18 @@ void draw_tools(UiState& ui) {
     column = (column + 1) % columns;
   }
   ImGui::PopStyleVar();
+  ui.panels.tools_right = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
   ImGui::End();
+}
+
+void note_free_room(UiState& ui) {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const double line = static_cast<double>(ImGui::GetFrameHeight());
+  const bool has_side = ui.panels.has_brush || ui.panels.has_view;
+  FreeRoom room{0.0, line, static_cast<double>(screen.x), static_cast<double>(screen.y) - line};
+  if (ui.panels.has_tools) room.left = static_cast<double>(ui.panels.tools_right);
+  if (has_side) room.right -= static_cast<double>((kSideWidth + 6.0F) * unit());
+  ui.panels.room = room;
 }
 
 void draw_brush(UiState& ui, DocumentThread& document) {

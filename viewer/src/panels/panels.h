@@ -28,6 +28,8 @@ void draw_outline(const UiState& ui);
 void draw_guide(const UiState& ui);
 void draw_menu(UiState& ui, DocumentThread& document);
 void draw_tools(UiState& ui);
+/// What the panels that are always in their places leave free; after they were drawn.
+void note_free_room(UiState& ui);
 void draw_brush(UiState& ui, DocumentThread& document);
 void draw_mask_edits(UiState& ui, DocumentThread& document);
 void draw_alphas(UiState& ui, DocumentThread& document);

@@ -123,12 +123,13 @@ void Camera::look_from(const Vec3& toward, const Vec3& up) noexcept {
   up_ = cross(back_, right_);
 }
 
-void Camera::frame(const Box3& box_mm) noexcept {
+void Camera::frame(const Box3& box_mm, double width_share, double height_share) noexcept {
+  assert(width_share > 0.0 && width_share <= 1.0 && height_share > 0.0 && height_share <= 1.0);
   if (!(length(box_mm.size()) > 0.0)) return;
   target_mm_ = box_mm.center();
   // Far enough for each corner of the box to be seen.
-  const double tan_y = half_height();
-  const double tan_x = tan_y * width_ / height_;
+  const double tan_y = height_share * half_height();
+  const double tan_x = width_share * half_height() * width_ / height_;
   double distance = 0.0;
   for (unsigned corner = 0; corner < 8; ++corner) {
     const Vec3 p = corner_of(box_mm, corner) - target_mm_;

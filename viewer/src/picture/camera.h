@@ -54,8 +54,9 @@ class Camera {
   /// Looks from a direction at the same target: `toward` from the target to the camera, unit
   /// length.
   void look_from(const Vec3& toward, const Vec3& up) noexcept;
-  /// All of a box in the picture, from the same direction.
-  void frame(const Box3& box_mm) noexcept;
+  /// All of a box in the picture, from the same direction; or in the part of it about its middle
+  /// that is so much of its width and of its height, each above 0 to 1.
+  void frame(const Box3& box_mm, double width_share = 1.0, double height_share = 1.0) noexcept;
   void set_target(const Vec3& target_mm) noexcept { target_mm_ = target_mm; }
   void set_parallel(bool is_parallel) noexcept { is_parallel_ = is_parallel; }
   bool is_parallel() const noexcept { return is_parallel_; }

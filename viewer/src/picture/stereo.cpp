@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/stereo.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace argil::viewer {
@@ -13,6 +14,13 @@ WindowPart eye_of(const Camera& camera, double offset, std::size_t eye, int left
   WindowPart part{camera.eye(offset), eye, left};
   part.camera.resize(right - left, camera.height());
   return part;
+}
+
+/// What of half a side is free where panels begin so far beyond its end, or before it (below 0).
+double share_of_half(double beyond, int side) {
+  constexpr double kLeastShare = 0.25;
+  const double half = 0.5 * side;
+  return std::clamp((half + beyond) / half, kLeastShare, 1.0);
 }
 
 }  // namespace
@@ -42,10 +50,20 @@ Camera::Pixel between_eyes(const Camera& camera, bool is_stereo, const Camera::P
           0.5 * camera.height() - dot(beside, lens.up) / mm};
 }
 
-void frame_in_each(Camera& camera, bool is_stereo, const Box3& box_mm) {
+void frame_in_each(Camera& camera, bool is_stereo, const Box3& box_mm,
+                   const std::optional<FreeRoom>& room) {
   const int width = camera.width();
+  const FreeRoom free = room.value_or(FreeRoom{0.0, 0.0, 1.0 * width, 1.0 * camera.height()});
+  const WindowPart first = parts_of(camera, is_stereo).front();
+  const WindowPart last = parts_of(camera, is_stereo).back();
+  const double width_share =
+      std::min(share_of_half(first.left - free.left, first.camera.width()),
+               share_of_half(free.right - last.left - last.camera.width(), last.camera.width()));
+  const double height_share =
+      std::min(share_of_half(-free.top, camera.height()),
+               share_of_half(free.bottom - camera.height(), camera.height()));
   if (is_stereo) camera.resize(left_half(width), camera.height());
-  camera.frame(box_mm);
+  camera.frame(box_mm, width_share, height_share);
   camera.resize(width, camera.height());
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "argil/core/vec3.h"
@@ -41,7 +42,18 @@ WindowPart part_at(const Camera& camera, bool is_stereo, const Camera::Pixel& pi
 /// pixel: for Camera::zoom.
 Camera::Pixel between_eyes(const Camera& camera, bool is_stereo, const Camera::Pixel& pixel);
 
-/// Camera::frame: all of a box in each picture of the window.
-void frame_in_each(Camera& camera, bool is_stereo, const Box3& box_mm);
+/// The part of the window that no panel lies over, in pixels.
+struct FreeRoom {
+  double left = 0.0;
+  double top = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+};
+
+/// Camera::frame: all of a box in each picture of the window. With `room` within that: its middle
+/// stays that of the picture, about which the view turns, and it is as large as the nearer panel
+/// leaves it, though never less than a quarter.
+void frame_in_each(Camera& camera, bool is_stereo, const Box3& box_mm,
+                   const std::optional<FreeRoom>& room = {});
 
 }  // namespace argil::viewer

@@ -110,6 +110,13 @@ constexpr bool is_stamped(Action action) noexcept {
 constexpr bool is_anchored(Action action) noexcept {
   return info_of(action).kind == ActionKind::anchored;
 }
+/// Whether a piece of its path may be applied to what the pieces before left: that comes near to
+/// what the whole does, but for detail, which each piece resamples. The end of the stroke does the
+/// whole path again, from the clay as it was when it began: what was worked before is thrown away.
+constexpr bool can_be_carried(Action action) noexcept {
+  return action == Action::grab || action == Action::twist || action == Action::elastic ||
+         action == Action::slide;
+}
 /// Whether it lays a profile along the stroke: these alone read the tool's sharpness and width.
 constexpr bool is_profiled(Action action) noexcept {
   return info_of(action).kind == ActionKind::profiled;

@@ -39,10 +39,12 @@ namespace argil {
 ///              holds the average of what is finer. Levels keep the numbers they have in the clay.
 /// Drawn        Of tools that displace the surface (smooth, inflate, flatten, pinch, layer and
 ///              their like) the clay's own blocks, whose vertices move as that level does:
-///              detail stays, under the tool and beside it (PreviewDetail*). Of those that make
-///              surface (add, carve, trim) or drag matter along (grab, twist, elastic) that level's
-///              blocks where surface is made, with a seam of triangles to the clay's own around.
-///              What is drawn is closed, whatever the stroke (PreviewSurfaceOf*).
+///              detail stays, under the tool and beside it (PreviewDetail*); of grab and twist
+///              the clay's own blocks as well, whose vertices go with their matter
+///              (PreviewDrag*). Of those that make surface (add, carve, trim) or drag matter
+///              along otherwise (elastic, slide, snake hook) that level's blocks where surface is
+///              made, with a seam of triangles to the clay's own around. What is drawn is closed,
+///              whatever the stroke (PreviewSurfaceOf*).
 /// Accuracy     its surface lies within a voxel of that level of what the same samples make of the
 ///              clay; flatten and scrape, which fit a plane to what they left, within 1.5, borders
 ///              of a mask, which is as coarse, within two (PreviewAccuracy*). docs/sessions.md,
@@ -51,7 +53,8 @@ namespace argil {
 ///              (Preview.HasTheSameBitsForAnyThreadCount).
 /// Threads      `begin` on the clay's thread; then it shares nothing with the clay, but reads
 ///              `shown`, and belongs to one thread at a time, any.
-/// Memory       twice its levels, from a quarter of the clay's down, and the open stroke's record.
+/// Memory       twice its levels, from a quarter of the clay's down, the open stroke's record, and
+///              of grab and twist 72 bytes for each vertex that they met.
 class Preview {
  public:
   /// Voxels from centre to edge up to which a tool is worked as it comes: of what adds or carves,
@@ -108,8 +111,8 @@ class Preview {
 
   /// Brings what is drawn up to date with the preview. Only blocks are looked at that a dab
   /// changed, or that look at what it changed. Returns how many that were. Errors  memory: drop the
-  /// preview, and draw `shown` again. Cost    of moved blocks 0.3 us a vertex; else as
-  /// DisplaySurface for what is extracted.
+  /// preview, and draw `shown` again. Cost    of moved blocks 0.3 us a vertex, of dragged ones as
+  /// much for each dab; else as DisplaySurface for what is extracted.
   Result<std::int64_t> update_surface();
 
   /// What the last update did to what is drawn, which was `shown` at the beginning: blocks to

@@ -82,4 +82,18 @@ BedContact bed_contact(const TriangleMesh& mesh, double cut_mm);
 /// three points or more. The same shapes; ten passes over the vertices.
 Vec3 laid_flat(const TriangleMesh& mesh, const Vec3& up);
 
+/// What is up when the piece rests on the largest of its sides: of what it comes to rest on when it
+/// is put down from 200 directions all around and as it is (`up`), the facet of the convex hull
+/// with the largest area. Where no other is larger by a thousandth, the one that it comes to rest
+/// on as it is.
+///
+/// Shapes       closed, outward, with volume; `up` of unit length. `slack_mm`, 0 or more: points as
+///              near as that to the plane lie on it, so that a side which is flat but for the
+///              roughness of its surface counts as a whole; usually a voxel.
+/// Determinism  same bits every time.
+/// Errors       throws std::bad_alloc: to be called within no_throw.
+/// Cost         some 0.3 s of CPU time, and two passes over the vertices for each side that it can
+///              rest on.
+Vec3 lying_on_most(const TriangleMesh& mesh, const Vec3& up, double slack_mm);
+
 }  // namespace argil::mesh

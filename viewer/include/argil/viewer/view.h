@@ -66,7 +66,8 @@ struct ViewMeasurement {
   std::string kind;    ///< distance, angle, thickness
   double value = 0.0;  ///< mm; of an angle degrees
   std::vector<Vec3>
-      points_mm;  ///< in the sculpture's frame: two; of an angle three, its corner second
+      points_mm;           ///< in the sculpture's frame: two; of an angle three, its corner second
+  bool is_current = true;  ///< false: the clay there is no longer as it was when they were picked
 };
 
 /// What a window measured, from its opening to its end. Times are of whole frames: input, the
