@@ -20,7 +20,8 @@ struct ShortNodes {
 /// value says. None beside the surface. Leaves in the order of their origins.
 ///
 /// Determinism  the least set that holds them: the same for any number of threads.
-/// Cost         1 us a leaf.
+/// Cost         1 us a leaf; while it runs some 580 bytes for each leaf of the level, whose values
+///              take 2 KB; of the result 76 for each.
 std::vector<ShortNodes> find_short_nodes(const LevelStack& stack, int level, bool is_outside);
 
 }  // namespace argil

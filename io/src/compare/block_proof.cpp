@@ -23,7 +23,8 @@ BlockProof::BlockProof(ExtractedSurface& surface, double bound_mm, const Pace& p
       samplers_(surface.clay()),
       slopes_(voxel_mm_) {
   assert(bound_mm > 0.0);
-  surface.prepare(pace);
+  surface.prepare(pace.part(0.0, 0.9));
+  sheets_.emplace(surface.mesh(), surface.cells(), voxel_mm_, pace.part(0.9, 1.0));
 }
 
 class BlockProof::CellQuestion {

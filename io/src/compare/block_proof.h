@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "argil/core/pace.h"
@@ -9,6 +10,7 @@
 #include "argil/mesh/decimate.h"
 
 #include "compare/block_slopes.h"
+#include "compare/cell_sheets.h"
 #include "compare/extracted_surface.h"
 #include "compare/sampler_pool.h"
 
@@ -38,6 +40,9 @@ class BlockProof final : public mesh::BoundProof {
   std::uint32_t vertex_of(std::uint32_t cell) const override {
     return surface_.mesh().triangles[surface_.cells()[cell].first][0];
   }
+  std::span<const std::uint32_t> other_vertices_of(std::uint32_t cell) const override {
+    return sheets_->others_in(cell);
+  }
   bool is_near(std::uint32_t cell, mesh::NearTriangles& mesh) const override;
   void ask_triangles(std::span<const mesh::Corners> triangles,
                      std::span<std::uint8_t> is_near) const override;
@@ -46,6 +51,7 @@ class BlockProof final : public mesh::BoundProof {
   class CellQuestion;
 
   const ExtractedSurface& surface_;
+  std::optional<CellSheets> sheets_;  ///< always there
   double bound_mm_;
   double voxel_mm_;
   mutable SamplerPool samplers_;

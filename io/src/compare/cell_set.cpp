@@ -184,6 +184,27 @@ SurfaceCell cell_of(const CellRun& run, double voxel_mm, FieldSampler& field) {
 
 }  // namespace
 
+bool has_all_vertices(const SurfaceCell& cell, const TriangleMesh& surface) {
+  if (cell.is_empty) return false;
+  int cut_edges = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (const std::size_t step : {4U, 2U, 1U}) {
+      if ((corner & step) != 0) continue;
+      cut_edges += (cell.corners[corner] < 0.0F) != (cell.corners[corner | step] < 0.0F) ? 1 : 0;
+    }
+  }
+  std::array<std::uint32_t, 12> met{};
+  int vertices = 0;
+  for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
+    for (const std::uint32_t v : surface.triangles[t]) {
+      if (vertices == cut_edges) return true;
+      const auto end = met.begin() + vertices;
+      if (std::find(met.begin(), end, v) == end) met[static_cast<std::size_t>(vertices++)] = v;
+    }
+  }
+  return vertices == cut_edges;
+}
+
 std::vector<SurfaceCell> surface_cells(const TriangleMesh& surface, const Clay& clay,
                                        const Pace& pace) {
   std::vector<std::vector<CellRun>> blocks(block_count(surface.triangles.size()));

@@ -41,4 +41,7 @@ struct SurfaceCell {
 std::vector<SurfaceCell> surface_cells(const TriangleMesh& surface, const Clay& clay,
                                        const Pace& pace);
 
+/// Whether a cell's triangles have a vertex for each of its edges that phi = 0 passes through.
+bool has_all_vertices(const SurfaceCell& cell, const TriangleMesh& surface);
+
 }  // namespace argil::io

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "argil/core/pace.h"
@@ -47,6 +48,12 @@ class ExtractedSurface {
     assert(is_prepared_);
     return parts_ && parts_->has_all(cell, low, side);
   }
+  /// LeftOutParts::untold, of left_out().
+  std::span<const std::uint32_t> untold() const {
+    assert(is_prepared_);
+    return parts_ ? parts_->untold() : std::span<const std::uint32_t>{};
+  }
+  const TriangleMesh& left_out() const noexcept { return left_out_; }
 
  private:
   const TriangleMesh& mesh_;

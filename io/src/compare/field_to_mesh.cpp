@@ -161,28 +161,6 @@ double most_bulge(const std::array<float, 8>& corners) noexcept {
 
 }  // namespace
 
-/// Whether its triangles have a vertex for each edge that phi = 0 passes through.
-bool FieldToMesh::has_all_vertices(const SurfaceCell& cell) const {
-  if (cell.is_empty) return false;
-  int cut_edges = 0;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    for (const std::size_t step : {4U, 2U, 1U}) {
-      if ((corner & step) != 0) continue;
-      cut_edges += (cell.corners[corner] < 0.0F) != (cell.corners[corner | step] < 0.0F) ? 1 : 0;
-    }
-  }
-  std::array<std::uint32_t, 12> met{};
-  int vertices = 0;
-  for (std::uint32_t t = cell.first; t < cell.first + cell.count; ++t) {
-    for (const std::uint32_t v : surface_.triangles[t]) {
-      if (vertices == cut_edges) return true;
-      const auto end = met.begin() + vertices;
-      if (std::find(met.begin(), end, v) == end) met[static_cast<std::size_t>(vertices++)] = v;
-    }
-  }
-  return vertices == cut_edges;
-}
-
 double FieldToMesh::bound_at_vertices(const Cell& cell) const {
   const SurfaceCell& in = extracted_.cells()[cell.number];
   std::vector<Sample> points;
@@ -194,7 +172,7 @@ double FieldToMesh::bound_at_vertices(const Cell& cell) const {
   for (std::uint32_t t = in.first; t < in.first + in.count; ++t) {
     for (const std::uint32_t v : surface_.triangles[t]) add(at_vertex_[v]);
   }
-  if (!has_all_vertices(in)) {
+  if (!has_all_vertices(in, surface_)) {
     const std::uint32_t hint = at_vertex_[surface_.triangles[in.first][0]].nearest;
     for_each_zero(cell.phi, {}, 1.0, kSides, [&](const FieldZero& zero) {
       if (!is_left_out(zero.fraction, cell))

@@ -56,7 +56,6 @@ class FieldToMesh {
   Cell cell(std::uint32_t number) const;
   Sample sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint, double enough) const;
   bool is_left_out(const Vec3& fraction, const Cell& cell) const;
-  bool has_all_vertices(const SurfaceCell& cell) const;
   Sample sample_at_vertex(std::uint32_t v, std::uint32_t hint, FieldSampler& field) const;
   void measure_vertices(const Pace& pace);
   DistanceSums measure_cells(const Pace& pace);

@@ -5,106 +5,18 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
-#include <utility>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "argil/engine/field_sampler.h"
 
 #include "compare/distance_sums.h"
+#include "compare/lattice_edge.h"
 
 namespace argil::io {
 namespace {
-
-/// How far a vertex may be from phi = 0 on its edge, in sides of the cell: where phi is not smooth,
-/// as where something is less than a voxel, it is 0.02 from the ends at least (docs/surface.md).
-constexpr double kAtEdge = 0.03;
-
-/// Points, to be asked for the nearest: halved by a plane across x, y and z in turn, wherever they
-/// lie. J. L. Bentley, Multidimensional Binary Search Trees (1975), without pointers.
-class PointTree {
- public:
-  explicit PointTree(std::vector<Vec3> points) : points_(std::move(points)) {
-    halve(0, points_.size(), 0);
-  }
-  /// How far the nearest is; `reach` where none is nearer.
-  double distance(const Vec3& at, double reach) const {
-    double least = reach;
-    look(0, points_.size(), 0, at, least);
-    return least;
-  }
-
- private:
-  /// The middle of each range separates its halves.
-  static std::size_t middle(std::size_t begin, std::size_t end) {
-    return begin + (end - begin) / 2;
-  }
-
-  void halve(std::size_t begin, std::size_t end, std::size_t axis) {
-    if (end - begin < 2) return;
-    const std::size_t at = middle(begin, end);
-    const auto place = [&](std::size_t n) {
-      return points_.begin() + static_cast<std::ptrdiff_t>(n);
-    };
-    std::nth_element(place(begin), place(at), place(end),
-                     [axis](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
-    halve(begin, at, (axis + 1) % 3);
-    halve(at + 1, end, (axis + 1) % 3);
-  }
-  void look(std::size_t begin, std::size_t end, std::size_t axis, const Vec3& at,
-            double& least) const {
-    if (begin == end) return;
-    const std::size_t split = middle(begin, end);
-    least = std::min(least, length(points_[split] - at));
-    const double beyond = at[axis] - points_[split][axis];
-    const std::size_t next = (axis + 1) % 3;
-    const auto look_below = [&] { look(begin, split, next, at, least); };
-    const auto look_above = [&] { look(split + 1, end, next, at, least); };
-    if (beyond < 0.0) {
-      look_below();
-      if (-beyond < least) look_above();
-    } else {
-      look_above();
-      if (beyond < least) look_below();
-    }
-  }
-
-  std::vector<Vec3> points_;
-};
-
-/// Those of the points that have one of the tree within reach, in their order. Throws Interrupted.
-std::vector<Vec3> near(const PointTree& tree, const std::vector<Vec3>& points, double reach,
-                       const Pace& pace) {
-  std::vector<std::vector<Vec3>> blocks(block_count(points.size()));
-  in_blocks(points.size(), pace, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      if (tree.distance(points[n], reach) < reach)
-        blocks[begin / kDistanceBlock].push_back(points[n]);
-    }
-  });
-  std::vector<Vec3> found;
-  for (const std::vector<Vec3>& block : blocks) {
-    found.insert(found.end(), block.begin(), block.end());
-  }
-  return found;
-}
-
-/// Calls `use(p)` with the place of phi = 0 on each edge of a cell that it passes through.
-template <class Use>
-void for_each_cut_edge(const SurfaceCell& cell, const Use& use) {
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t step = std::size_t{4} >> axis;
-      if ((corner & step) != 0) continue;
-      const double a = cell.corners[corner];
-      const double b = cell.corners[corner | step];
-      if ((a < 0.0) == (b < 0.0)) continue;
-      Vec3 p;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = (corner & std::size_t{4} >> k) != 0 ? 1.0 : 0.0;
-      p[axis] = a / (a - b);
-      use(p);
-    }
-  }
-}
 
 constexpr int kBoxes = LeftOutParts::kBoxes;
 
@@ -120,6 +32,77 @@ int box_before(double fraction) {
 }
 
 }  // namespace
+
+/// The edges, of all levels, that vertices of what was left out lie on and none that is kept does.
+class LeftOutParts::Edges {
+ public:
+  Edges(const TriangleMesh& surface, const TriangleMesh& left_out, std::int8_t coarsest,
+        double voxel_mm, const Pace& pace);
+
+  /// The vertex of what was left out that lies on the edge; nothing where none does.
+  std::optional<std::uint32_t> vertex_on(const LatticeEdge& edge) const {
+    const std::size_t place = place_of(edge);
+    if (place == edges_.size()) return std::nullopt;
+    return edges_[place].vertex;
+  }
+
+ private:
+  struct Cut {
+    LatticeEdge edge;
+    std::uint32_t vertex = 0;
+  };
+
+  std::size_t place_of(const LatticeEdge& edge) const {
+    const auto found =
+        std::lower_bound(edges_.begin(), edges_.end(), edge,
+                         [](const Cut& cut, const LatticeEdge& e) { return cut.edge < e; });
+    if (found == edges_.end() || found->edge != edge) return edges_.size();
+    return static_cast<std::size_t>(found - edges_.begin());
+  }
+  void forget_kept(const TriangleMesh& surface, std::int8_t coarsest, double voxel_mm,
+                   const Pace& pace);
+
+  std::vector<Cut> edges_;  ///< by edge, each once
+};
+
+/// A vertex lies on edges of several levels where these run along each other: a cell beside finer
+/// ones has edges that are cut in parts.
+LeftOutParts::Edges::Edges(const TriangleMesh& surface, const TriangleMesh& left_out,
+                           std::int8_t coarsest, double voxel_mm, const Pace& pace) {
+  for (std::uint32_t v = 0; v < left_out.positions.size(); ++v) {
+    for (std::int8_t level = 0; level <= coarsest; ++level) {
+      const std::optional<LatticeEdge> edge = edge_at(left_out.positions[v], level, voxel_mm);
+      if (edge) edges_.push_back({*edge, v});
+    }
+  }
+  const auto is_same = [](const Cut& a, const Cut& b) { return a.edge == b.edge; };
+  std::stable_sort(edges_.begin(), edges_.end(),
+                   [](const Cut& a, const Cut& b) { return a.edge < b.edge; });
+  edges_.erase(std::unique(edges_.begin(), edges_.end(), is_same), edges_.end());
+  forget_kept(surface, coarsest, voxel_mm, pace);
+}
+
+/// Of an edge that finer cells cut in parts, some may have a vertex that is kept.
+void LeftOutParts::Edges::forget_kept(const TriangleMesh& surface, std::int8_t coarsest,
+                                      double voxel_mm, const Pace& pace) {
+  const std::vector<Vec3>& kept = surface.positions;
+  std::vector<std::vector<std::size_t>> blocks(block_count(kept.size()));
+  in_blocks(kept.size(), pace, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      for (std::int8_t level = 0; level <= coarsest; ++level) {
+        const std::optional<LatticeEdge> edge = edge_at(kept[v], level, voxel_mm);
+        const std::size_t place = edge ? place_of(*edge) : edges_.size();
+        if (place < edges_.size()) blocks[begin / kDistanceBlock].push_back(place);
+      }
+    }
+  });
+  std::vector<std::uint8_t> has_kept(edges_.size(), 0);
+  for (const std::vector<std::size_t>& block : blocks) {
+    for (const std::size_t place : block) has_kept[place] = 1;
+  }
+  std::size_t place = 0;
+  std::erase_if(edges_, [&](const Cut&) { return has_kept[place++] != 0; });
+}
 
 /// The pieces of phi = 0 in one cell.
 class LeftOutParts::Pieces {
@@ -197,47 +180,61 @@ LeftOutParts::Boxes LeftOutParts::Pieces::at(const Vec3& place) const {
 LeftOutParts::LeftOutParts(const TriangleMesh& surface, const TriangleMesh& left_out,
                            const std::vector<SurfaceCell>& cells, double voxel_mm,
                            const Pace& pace) {
-  const PointTree left_out_vertices(left_out.positions);
   std::int8_t coarsest = 0;
   for (const SurfaceCell& cell : cells) coarsest = std::max(coarsest, cell.level);
-  const double widest = 2.0 * kAtEdge * std::ldexp(voxel_mm, coarsest);
-  const PointTree kept_vertices(near(left_out_vertices, surface.positions, widest, pace));
-  std::vector<std::vector<Mixed>> blocks(block_count(cells.size()));
-  in_blocks(cells.size(), pace, [&](std::size_t begin, std::size_t end) {
+  const Edges edges(surface, left_out, coarsest, voxel_mm, pace.part(0.0, 0.5));
+  struct Found {
+    std::vector<Mixed> mixed;
+    std::vector<std::uint32_t> untold;
+  };
+  std::vector<Found> blocks(block_count(cells.size()));
+  in_blocks(cells.size(), pace.part(0.5, 1.0), [&](std::size_t begin, std::size_t end) {
+    Found& found = blocks[begin / kDistanceBlock];
     for (std::size_t c = begin; c < end; ++c) {
-      const SurfaceCell& cell = cells[c];
-      const double side = cell.side_mm(voxel_mm);
-      const Vec3 low = cell.low_mm(voxel_mm);
-      // No edge of the cell is farther from its middle.
-      const double far = (0.5 * std::numbers::sqrt3 + kAtEdge) * side;
-      const Vec3 half{0.5 * side, 0.5 * side, 0.5 * side};
-      if (left_out_vertices.distance(low + half, far) >= far) continue;
-      const auto is_left_out = [&](const Vec3& place) {
-        const Vec3 at = low + side * place;
-        const double distance = left_out_vertices.distance(at, kAtEdge * side);
-        return distance < kAtEdge * side && distance < kept_vertices.distance(at, kAtEdge * side);
-      };
-      Mixed mixed = mixed_in(cell, is_left_out);
+      Mixed mixed = mixed_in(cells[c], edges, found.untold);
       mixed.cell = static_cast<std::uint32_t>(c);
-      if (mixed.left_out.any()) blocks[begin / kDistanceBlock].push_back(mixed);
+      if (mixed.left_out.any()) found.mixed.push_back(mixed);
     }
   });
-  for (const std::vector<Mixed>& block : blocks) {
-    mixed_.insert(mixed_.end(), block.begin(), block.end());
+  for (const Found& found : blocks) {
+    mixed_.insert(mixed_.end(), found.mixed.begin(), found.mixed.end());
+    untold_.insert(untold_.end(), found.untold.begin(), found.untold.end());
   }
+  std::sort(untold_.begin(), untold_.end());
+  untold_.erase(std::unique(untold_.begin(), untold_.end()), untold_.end());
 }
 
-/// `is_left_out` says that of the place of phi = 0 on an edge.
-template <class IsLeftOut>
-LeftOutParts::Mixed LeftOutParts::mixed_in(const SurfaceCell& cell, const IsLeftOut& is_left_out) {
-  std::vector<Vec3> left_out;
-  std::vector<Vec3> kept;
-  for_each_cut_edge(cell, [&](const Vec3& p) { (is_left_out(p) ? left_out : kept).push_back(p); });
+/// Adds to `untold` what untold() is to have of the cell.
+LeftOutParts::Mixed LeftOutParts::mixed_in(const SurfaceCell& cell, const Edges& left_out,
+                                           std::vector<std::uint32_t>& untold) {
+  struct Cut {
+    Vec3 place;
+    std::uint32_t vertex = 0;
+  };
+  std::array<Cut, 12> out;
+  std::array<Vec3, 12> kept;
+  std::size_t count_out = 0;
+  std::size_t count_kept = 0;
+  for_each_cut_edge(cell, [&](const LatticeEdge& edge, const Vec3& p) {
+    if (const std::optional<std::uint32_t> vertex = left_out.vertex_on(edge)) {
+      out[count_out++] = {p, *vertex};
+    } else {
+      kept[count_kept++] = p;
+    }
+  });
   Mixed mixed;
-  if (left_out.empty()) return mixed;
+  if (count_out == 0) return mixed;
   const Pieces pieces{Trilinear(cell.corners)};
-  for (const Vec3& p : left_out) mixed.left_out |= pieces.at(p);
-  for (const Vec3& p : kept) mixed.left_out &= ~pieces.at(p);
+  Boxes with_kept;
+  for (std::size_t n = 0; n < count_kept; ++n) with_kept |= pieces.at(kept[n]);
+  for (std::size_t n = 0; n < count_out; ++n) {
+    const Boxes piece = pieces.at(out[n].place);
+    if ((piece & with_kept).any()) {
+      untold.push_back(out[n].vertex);
+    } else {
+      mixed.left_out |= piece;
+    }
+  }
   mixed.kept = pieces.all() & ~mixed.left_out;
   return mixed;
 }

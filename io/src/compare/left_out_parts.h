@@ -17,17 +17,20 @@ namespace argil::io {
 /// Which of phi = 0 in the cells of a surface belongs to components that were left out of it.
 ///
 /// What phi = 0 has in a cell is of pieces, each of which passes through edges of the cell, where
-/// phi is linear: through each such edge once, at the place of one vertex of the extracted surface.
-/// A piece all of whose edges have vertices that were left out was left out. Pieces are told apart
-/// by the boxes of a cell cut in 16 along each axis that phi = 0 passes through: what those of
-/// different clusters hold is not connected within the cell. What is not told apart, or where a
-/// vertex is not at its edge, counts as kept.
+/// phi is linear: through each such edge once. A vertex of the extracted surface that lies on a
+/// lattice edge is the edge's own, whatever else is near; so an edge is of what was left out where
+/// such a vertex was, and none that is kept lies on it. A piece all of whose edges are was left
+/// out. Pieces are told apart by the boxes of a cell cut in 16 along each axis that phi = 0 passes
+/// through: what those of different clusters hold is not connected within the cell. What is not
+/// told apart, and an edge whose vertex was moved off it (docs/surface.md), counts as kept.
 ///
+/// Shapes       surface, left_out: as extracted, not rounded to floats: a vertex lies on its edge
+///              to a millionth of it.
 /// Units        places within a cell as fractions of it.
+/// Determinism  same answers for any number of threads.
 /// Threads      any, once made.
 /// Cost         the surface's size times the logarithm of how many vertices were left out; 0.2 ms
-/// and
-///              1 kB for each cell that has both.
+///              and 1 kB for each cell that has both.
 class LeftOutParts {
  public:
   /// `cells` of the surface without what was left out. Throws Interrupted.
@@ -38,10 +41,15 @@ class LeftOutParts {
   /// side 0 for a point of it.
   bool has_all(std::uint32_t cell, const Vec3& low, double side) const;
 
+  /// Vertices of what was left out at which phi = 0 is of a piece with something that is kept, as
+  /// far as can be told: ascending, each once.
+  const std::vector<std::uint32_t>& untold() const noexcept { return untold_; }
+
   static constexpr int kBoxes = 16;  ///< along each axis of a cell
 
  private:
   using Boxes = std::bitset<std::size_t{kBoxes} * kBoxes * kBoxes>;
+  class Edges;
   class Pieces;
   struct Mixed {
     std::uint32_t cell = 0;
@@ -49,10 +57,11 @@ class LeftOutParts {
     Boxes kept;      ///< the others that it passes through
   };
 
-  template <class IsLeftOut>
-  static Mixed mixed_in(const SurfaceCell& cell, const IsLeftOut& is_left_out);
+  static Mixed mixed_in(const SurfaceCell& cell, const Edges& left_out,
+                        std::vector<std::uint32_t>& untold);
 
   std::vector<Mixed> mixed_;  ///< cells with something left out, ascending
+  std::vector<std::uint32_t> untold_;
 };
 
 }  // namespace argil::io

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -43,6 +45,7 @@ class Export {
   /// A stage's part of the whole, by what they cost (bench_export, bench_printing).
   Pace stage(std::string_view name) const;
   Result<void> extract();
+  void keep_untold(const Pace& pace);
   Result<void> make_mesh();
   void certify();
   Result<void> write_and_check(const std::filesystem::path& temporary, MeshFormat format);
@@ -52,9 +55,9 @@ class Export {
   const Clay& clay_;
   const ExportOptions& options_;
   Pace pace_;
-  TriangleMesh surface_;   ///< without small components; empty where nothing is removed from it
-  TriangleMesh left_out_;  ///< those components
-  TriangleMesh mesh_;      ///< what is written
+  TriangleMesh surface_;  ///< without small components; empty where nothing is removed from it
+  mesh::SmallComponents left_out_;             ///< those
+  TriangleMesh mesh_;                          ///< what is written
   std::optional<ExtractedSurface> extracted_;  ///< what it is measured by
   double extracted_volume_ = 0.0;
   ExportReport report_;
@@ -80,14 +83,25 @@ Result<void> Export::extract() {
   report_.certificate.surface_triangles = static_cast<std::int64_t>(surface_.triangles.size());
   extracted_volume_ = signed_volume(surface_);
   surface_.normals = {};
-  mesh::SmallComponents small = mesh::drop_small_components(surface_, clay_.options().voxel_mm);
-  report_.removed_components = small.count;
-  left_out_ = std::move(small.mesh);
+  left_out_ = mesh::drop_small_components(surface_, clay_.options().voxel_mm);
   if (surface_.triangles.empty()) {
     return Error{ErrorKind::bad_input,
                  "there is no clay to export to '" + file_.string() + "'; add some first"};
   }
   return {};
+}
+
+/// Where the field does not tell a component that was left out from what is beside it nothing could
+/// be proven: it stays.
+void Export::keep_untold(const Pace& pace) {
+  for (double done = 0.0; left_out_.count > 0; done += 0.5 * (1.0 - done)) {
+    extracted_->prepare(pace.part(done, 0.5 * (1.0 + done)));
+    const std::span<const std::uint32_t> untold = extracted_->untold();
+    if (untold.empty()) return;
+    mesh::put_back(surface_, left_out_, untold);
+    // What was told from all but these may now not be told from them.
+    extracted_.emplace(surface_, clay_, left_out_.mesh);
+  }
 }
 
 Result<void> Export::make_mesh() {
@@ -101,8 +115,10 @@ Result<void> Export::make_mesh() {
   mesh::DecimateOptions fewer;
   fewer.triangles = has_count ? options_.triangles : 0;
   fewer.max_error_mm = options_.max_error_mm;
-  extracted_.emplace(surface_, clay_, left_out_);
-  auto decimated = decimate_extracted(*extracted_, fewer, stage("decimate").progress());
+  extracted_.emplace(surface_, clay_, left_out_.mesh);
+  const Pace pace = stage("decimate");
+  if (options_.max_error_mm > 0.0) keep_untold(pace.part(0.0, 0.1));
+  auto decimated = decimate_extracted(*extracted_, fewer, pace.part(0.1, 1.0).progress());
   if (!decimated) return decimated.error();
   mesh_ = std::move(decimated.value().mesh);
   return {};
@@ -112,9 +128,12 @@ Result<void> Export::make_mesh() {
 void Export::certify() {
   assert(!mesh_.triangles.empty());
   // Where nothing was removed the mesh is its own surface, and changes where folds are collapsed.
-  if (surface_.triangles.empty()) extracted_.emplace(mesh_, clay_, left_out_);
+  const bool is_its_own = surface_.triangles.empty();
+  if (is_its_own) extracted_.emplace(mesh_, clay_, left_out_.mesh);
   mesh::Certificate& certificate = report_.certificate;
   certificate.error = field_error(mesh_, *extracted_, stage("measure"));
+  // The file is read back beside what is kept here.
+  if (is_its_own) extracted_.reset();
   certificate.volume_change = (signed_volume(mesh_) - extracted_volume_) / extracted_volume_;
   certificate.triangles = static_cast<std::int64_t>(mesh_.triangles.size());
   certificate.voxel_mm = clay_.options().voxel_mm;
@@ -180,6 +199,12 @@ Result<ExportReport> Export::run() {
   }
   if (Result<void> extracted = extract(); !extracted) return extracted.error();
   if (Result<void> made = make_mesh(); !made) return made.error();
+  report_.removed_components = left_out_.count;
+  // Parts have shorter numbers: what they take the writer foretells.
+  const Result<void> fits = options_.parts ? Result<void>{}
+                                           : check_size(format.value(), mesh_,
+                                                        stage("measure").part(0.0, 0.0).progress());
+  if (!fits) return fits.error();
   const Result<void> written =
       replace_file(file_, [&](const std::filesystem::path& temporary) -> Result<void> {
         return write_and_check(temporary, format.value());

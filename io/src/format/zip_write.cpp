@@ -142,7 +142,7 @@ Result<void> ZipWriter::end() {
   entry.packed_bytes = end - entry.at - 30 - entry.name.size();
   if (entry.bytes >= kMost || end >= kMost) {
     return Error{ErrorKind::bad_input,
-                 "the mesh is too large for a 3MF (4 GB of text); write STL or PLY"};
+                 "an entry of the archive takes 4 GB or more; write .stl or .ply"};
   }
   constexpr std::uint64_t kCrcAt = 14;
   out_.seek(entry.at + kCrcAt);

@@ -4,6 +4,8 @@
 #include "mesh_format/3mf_write.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -36,8 +38,8 @@ constexpr std::string_view kRelationships =
 /// and the build. Numbers of objects go on from one to the next.
 class ModelWriter {
  public:
-  /// `chunks` go to `zip`.
-  ModelWriter(Chunks& chunks, ZipWriter& zip, const ThreemfModel& model)
+  /// `chunks` go to `zip`; without one all goes through them.
+  ModelWriter(Chunks& chunks, ZipWriter* zip, const ThreemfModel& model)
       : chunks_(chunks), zip_(zip), model_(model) {}
 
   Result<void> write();
@@ -56,7 +58,7 @@ class ModelWriter {
   }
 
   Chunks& chunks_;
-  ZipWriter& zip_;
+  ZipWriter* zip_;
   const ThreemfModel& model_;
   std::map<Srgb, std::size_t> colors_;  ///< the place of each in its group
   std::size_t last_id_ = 0;
@@ -111,7 +113,7 @@ struct DeflatedPiece {
 template <class Items, class One>
 Result<void> ModelWriter::write_records(const Items& items, const One& one) {
   constexpr std::size_t kFew = 512;
-  if (items.size() < kFew) return write_each(chunks_, items, one);
+  if (zip_ == nullptr || items.size() < kFew) return write_each(chunks_, items, one);
   chunks_.flush();
   const auto make = [&](const ItemRange& range, DeflatedPiece& piece) {
     piece.text.clear();
@@ -120,7 +122,7 @@ Result<void> ModelWriter::write_records(const Items& items, const One& one) {
     piece.crc = crc_of(piece.text.all());
   };
   const auto use = [&](const ItemRange& range, const DeflatedPiece& piece) {
-    zip_.write_deflated(piece.packed, piece.text.all().size(), piece.crc);
+    zip_->write_deflated(piece.packed, piece.text.all().size(), piece.crc);
     return chunks_.step_past(range.end - range.begin);
   };
   if (!make_in_order<DeflatedPiece>(items.size(), make, use)) return writing_stopped();
@@ -204,20 +206,66 @@ Result<void> write_entry(ZipWriter& zip, const std::string& name, std::string_vi
   return zip.end();
 }
 
-}  // namespace
+/// What the model takes at most, without looking at its numbers.
+std::uint64_t most_text(const ThreemfModel& model) {
+  // Of the lines that ModelWriter writes, with the longest float (-1.17549435e-38) and index.
+  constexpr std::uint64_t kVertex = 25 + 3 * 15;
+  constexpr std::uint64_t kTriangle = 30 + 3 * 10;
+  constexpr std::uint64_t kPlacement = 400;
+  constexpr std::uint64_t kLongestEscape = 6;
+  constexpr std::uint64_t kObject = 400 + kLongestEscape * Assembly::kLongestName;
+  std::uint64_t bytes = 2 * kObject;
+  for (const auto& [name, value] : model.metadata) {
+    bytes += kObject + kLongestEscape * (name.size() + value.size());
+  }
+  for (const ThreemfObject& object : model.objects) {
+    bytes += kObject + kVertex * object.mesh->positions.size() +
+             kTriangle * object.mesh->triangles.size();
+  }
+  for (const AssemblyItem& item : *model.items) {
+    bytes += kObject + kPlacement * (1 + item.placements.size());
+  }
+  return bytes;
+}
 
-Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress) {
-  ZipWriter zip(out);
-  Result<void> written = write_entry(zip, "[Content_Types].xml", kContentTypes);
-  if (written) written = write_entry(zip, "_rels/.rels", kRelationships);
-  if (!written) return written;
+/// What progress is counted in.
+std::size_t steps_of(const ThreemfModel& model) {
   std::size_t steps = model.items->size();
   for (const ThreemfObject& object : model.objects) {
     steps += object.mesh->positions.size() + object.mesh->triangles.size();
   }
+  return steps;
+}
+
+}  // namespace
+
+Result<void> check_3mf_size(const ThreemfModel& model, const Progress& progress,
+                            std::uint64_t most) {
+  if (most_text(model) < most) return {};
+  std::uint64_t bytes = 0;
+  const Progress not_begun = [&](std::string_view stage, double) {
+    return !progress || progress(stage, 0.0);
+  };
+  Chunks chunks([&](std::string_view text) { bytes += text.size(); }, not_begun, steps_of(model));
+  const Result<void> counted = ModelWriter(chunks, nullptr, model).write();
+  if (!counted) return counted;
+  chunks.flush();
+  if (bytes < most) return {};
+  return Error{ErrorKind::bad_input, "the mesh is too large for a 3MF: " + std::to_string(bytes) +
+                                         " bytes of text, which must be less than " +
+                                         std::to_string(most) +
+                                         "; write .stl or .ply, or remove triangles"};
+}
+
+Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress) {
+  if (Result<void> fits = check_3mf_size(model, progress); !fits) return fits;
+  ZipWriter zip(out);
+  Result<void> written = write_entry(zip, "[Content_Types].xml", kContentTypes);
+  if (written) written = write_entry(zip, "_rels/.rels", kRelationships);
+  if (!written) return written;
   zip.begin("3D/3dmodel.model");
-  Chunks chunks([&](std::string_view data) { zip.write(data); }, progress, steps);
-  written = ModelWriter(chunks, zip, model).write();
+  Chunks chunks([&](std::string_view data) { zip.write(data); }, progress, steps_of(model));
+  written = ModelWriter(chunks, &zip, model).write();
   if (!written) return written;
   chunks.flush();
   written = zip.end();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,7 +31,18 @@ struct ThreemfModel {
   const std::vector<AssemblyItem>* items = nullptr;  ///< of these objects
 };
 
-/// As the writers of chunks.h.
+/// The model's text is one entry of an archive, which holds no more: less than 4 GB.
+inline constexpr std::uint64_t kMost3mfText = 0xffffffff;
+
+/// Whether the text of the model is less than `most` bytes.
+///
+/// Errors   bad_input naming what it takes; interrupted.
+/// Cost     none up to 24 million vertices; then the text is made once more than for the file.
+Result<void> check_3mf_size(const ThreemfModel& model, const Progress& progress,
+                            std::uint64_t most = kMost3mfText);
+
+/// As the writers of chunks.h, after check_3mf_size: what does not fit is refused before anything
+/// is written.
 Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress);
 
 }  // namespace argil::io

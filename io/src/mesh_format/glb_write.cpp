@@ -65,7 +65,7 @@ Result<void> write_glb(Chunks& chunks, const TriangleMesh& mesh, const WriteOpti
   const std::size_t whole = 12 + 8 + json.size() + 8 + binary;
   if (whole > std::numeric_limits<std::uint32_t>::max()) {
     return Error{ErrorKind::bad_input,
-                 "the mesh takes more than the 4 GB of a GLB file; write .3mf or .ply"};
+                 "the mesh takes more than the 4 GB of a GLB file; write .stl or .ply"};
   }
   const auto size = [](std::size_t bytes) { return static_cast<std::uint32_t>(bytes); };
   chunks.text("glTF").raw(std::uint32_t{2}).raw(size(whole));

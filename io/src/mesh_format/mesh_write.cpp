@@ -88,6 +88,12 @@ Result<void> check_writable(const TriangleMesh& mesh) {
   return {};
 }
 
+Result<void> check_size(MeshFormat format, const TriangleMesh& mesh_mm, const Progress& progress) {
+  if (format != MeshFormat::threemf) return {};
+  const std::vector<AssemblyItem> items{{"", {{0, {}}}}};
+  return check_3mf_size({"", {}, {{"", {}, &mesh_mm}}, &items}, progress);
+}
+
 Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
                           const WriteOptions& options, const Progress& progress) {
   if (Result<void> fits = check_writable(mesh_mm); !fits) return fits;

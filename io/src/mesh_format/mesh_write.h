@@ -28,6 +28,11 @@ Result<void> check_holds_parts(const std::filesystem::path& file);
 /// Errors  bad_input for coordinates no float can hold, missing vertices, no or too many triangles.
 Result<void> check_writable(const TriangleMesh& mesh_mm);
 
+/// Whether the format can hold so large a mesh as one object, before anything is written.
+/// Errors  bad_input; interrupted.
+/// Cost    as check_3mf_size (3mf_write.h).
+Result<void> check_size(MeshFormat format, const TriangleMesh& mesh_mm, const Progress& progress);
+
 /// Writes `mesh_mm` to `out`, rounding to float on the way. The order of vertices and triangles is
 /// kept; the same mesh gives the same bytes.
 /// Errors  as check_writable; bad_input for what the format cannot hold; interrupted. Disk errors

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "argil/mesh/edges.h"
 #include "argil/mesh/intersections.h"
 #include "argil/mesh/rounding.h"
 #include "argil/mesh/triangle_geometry.h"
@@ -33,7 +35,7 @@ void sort_unique(std::vector<std::uint32_t>& numbers) {
 template <class Item, class Work>
 void in_chunks(std::size_t count, std::vector<Item>& all, const Pace& pace, const Work& work) {
   constexpr std::size_t kChunk = 1024;
-  constexpr std::size_t kAtATime = 256;
+  constexpr std::size_t kAtATime = 64;  // some 100 ms; then an interruption is heard
   const std::size_t chunks = (count + kChunk - 1) / kChunk;
   std::vector<std::vector<Item>> found(chunks);
   for (std::size_t first = 0; first < chunks; first += kAtATime) {
@@ -52,6 +54,27 @@ std::array<std::uint32_t, 3> vertices_of(const CollapseMesh& mesh, HalfEdge h) {
 Corners corners_at(const CollapseMesh& mesh, HalfEdge h) {
   const auto& [a, b, c] = vertices_of(mesh, h);
   return {mesh.position(a), mesh.position(b), mesh.position(c)};
+}
+
+/// Calls `use(u)` for the vertices that share an edge with `v`, which must be there.
+template <class Use>
+void for_each_neighbour(const CollapseMesh& mesh, std::uint32_t v, const Use& use) {
+  const HalfEdge first = mesh.any_from(v);
+  HalfEdge h = first;
+  do {
+    use(mesh.to(h));
+    h = mesh.next_around(h);
+  } while (h != first);
+}
+
+/// The vertices and their neighbours, ascending.
+VertexBlock with_neighbours(const CollapseMesh& mesh, const VertexBlock& vertices) {
+  VertexBlock all = vertices;
+  for (const std::uint32_t v : vertices) {
+    for_each_neighbour(mesh, v, [&](std::uint32_t other) { all.push_back(other); });
+  }
+  sort_unique(all);
+  return all;
 }
 
 }  // namespace
@@ -91,52 +114,65 @@ bool BoundKeeper::needs_proof(const Cell& cell) const {
 }
 
 /// Only what has moved moves.
-void BoundKeeper::fit() {
+void BoundKeeper::fit(const Pace& pace) {
   mesh_ = state_.mesh.mesh(kept_);
   std::vector<bool> fixed;
   for (const std::uint32_t v : kept_) {
     fixed.push_back(state_.moved[v] == 0);
   }
-  fit_vertices(mesh_, target_, fixed);
+  fit_vertices(mesh_, target_, fixed, pace);
   mesh_ = rounded_to_float(std::move(mesh_));
   for (std::size_t i = 0; i < kept_.size(); ++i) state_.mesh.move(kept_[i], mesh_.positions[i]);
 }
 
+/// Begins at what became of a vertex, and of one of each other sheet of the cell.
+void BoundKeeper::begin_near(std::uint32_t vertex, std::uint32_t cell, SheetWalks& walks) const {
+  walks.begin(walks.mesh().became(vertex));
+  for (const std::uint32_t other : proof_.other_vertices_of(cell)) {
+    walks.begin_also(walks.mesh().became(other));
+  }
+}
+
+/// Notes the triangles that the answers came from.
+void BoundKeeper::rely_on(const SheetWalks& walks, Cell& cell) const {
+  cell.near = state_.mesh.from(walks.walks().front().triangle());
+  cell.relied.fill(kNothing);
+  std::size_t count = 0;
+  for (const TriangleWalk& walk : walks.walks()) {
+    for (const HalfEdge h : walk.relied_on()) {
+      if (std::find(cell.relied.begin(), cell.relied.end(), h) != cell.relied.end()) continue;
+      if (count == cell.relied.size()) {
+        cell.relied.back() = kMany;
+        return;
+      }
+      cell.relied[count++] = h;
+    }
+  }
+}
+
 /// Looks from where it was found last, and where that fails from what became of its own surface.
-void BoundKeeper::prove_cell(std::uint32_t c, TriangleWalk& walk, Faults& faults) {
+void BoundKeeper::prove_cell(std::uint32_t c, SheetWalks& walks, Faults& faults) {
   Cell& cell = cells_[c];
   const CollapseMesh& mesh = state_.mesh;
   const std::uint32_t vertex = proof_.vertex_of(c);
   cell.is_proven = false;
   for (const std::uint32_t from : {cell.near, vertex}) {
-    walk.begin(mesh.became(from));
-    cell.is_proven = proof_.is_near(c, walk);
-    if (cell.is_proven) break;
+    begin_near(from, c, walks);
+    cell.is_proven = proof_.is_near(c, walks);
+    if (cell.is_proven) return rely_on(walks, cell);
   }
-  if (!cell.is_proven) {
-    const auto [u, v, w] = vertices_of(mesh, walk.triangle());
-    faults.push_back(
-        {surface_.positions[vertex], {u, v, w, mesh.became(vertex), mesh.became(cell.near), u}, c});
-    return;
-  }
-  cell.near = mesh.from(walk.triangle());
-  cell.relied.fill(kNothing);
-  std::size_t count = 0;
-  for (const HalfEdge h : walk.relied_on()) {
-    if (std::find(cell.relied.begin(), cell.relied.end(), h) != cell.relied.end()) continue;
-    if (count == cell.relied.size()) {
-      cell.relied.back() = kMany;
-      break;
-    }
-    cell.relied[count++] = h;
-  }
+  const auto [u, v, w] = vertices_of(mesh, walks.walks().front().triangle());
+  const std::uint32_t last = mesh.from(walks.walks().back().triangle());
+  faults.push_back({surface_.positions[vertex],
+                    {u, v, w, mesh.became(vertex), mesh.became(cell.near), last},
+                    c});
 }
 
 void BoundKeeper::prove_cells(Faults& faults, const Pace& pace) {
   in_chunks(cells_.size(), faults, pace, [&](std::size_t begin, std::size_t end, Faults& found) {
-    TriangleWalk walk(state_.mesh);
+    SheetWalks walks(state_.mesh);
     for (std::size_t c = begin; c < end; ++c) {
-      if (needs_proof(cells_[c])) prove_cell(static_cast<std::uint32_t>(c), walk, found);
+      if (needs_proof(cells_[c])) prove_cell(static_cast<std::uint32_t>(c), walks, found);
     }
   });
 }
@@ -225,40 +261,41 @@ bool BoundKeeper::is_as_before(HalfEdge triangle) const {
 /// is not proven with what was there before either.
 bool BoundKeeper::was_there_before(const Fault& fault) const {
   if (fault.cell != kNothing) {
-    TriangleWalk walk(before_);
-    walk.begin(before_.became(proof_.vertex_of(fault.cell)));
-    return !proof_.is_near(fault.cell, walk);
+    SheetWalks walks(before_);
+    begin_near(proof_.vertex_of(fault.cell), fault.cell, walks);
+    return !proof_.is_near(fault.cell, walks);
   }
   return is_as_before(fault.triangles[0]) && is_as_before(fault.triangles[1]);
 }
 
-bool BoundKeeper::was_there_before(const Faults& faults) const {
-  return std::any_of(faults.begin(), faults.end(),
-                     [&](const Fault& fault) { return was_there_before(fault); });
+bool BoundKeeper::was_there_before(const Faults& faults, const Pace& pace) const {
+  constexpr std::size_t kBetweenReports = 256;
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    if (i % kBetweenReports == 0) pace.at(0.0);
+    if (was_there_before(faults[i])) return true;
+  }
+  return false;
 }
 
 /// Of the vertices that were around the faults, and of those next to them. Where the surface folds
 /// no smaller reach helps: there it stays.
-void BoundKeeper::raise_caution(const Faults& faults, double radius_mm) {
+void BoundKeeper::raise_caution(const Faults& faults, double radius_mm, const Pace& pace) {
   std::vector<std::uint32_t> raised;
   for (const Fault& fault : faults) {
     for (const std::uint32_t v : fault.vertices) {
       raised.push_back(v);
-      const HalfEdge first = before_.any_from(v);
-      HalfEdge h = first;
-      do {
-        raised.push_back(before_.to(h));
-        h = before_.next_around(h);
-      } while (h != first);
+      for_each_neighbour(before_, v, [&](std::uint32_t other) { raised.push_back(other); });
       if (fault.is_fold) state_.caution[v] = CollapseState::kStays;
     }
   }
   const Balls balls = balls_around(faults, radius_mm);
-  for (std::uint32_t v = 0; v < before_.vertices(); ++v) {
-    if (before_.any_from(v) != CollapseMesh::kGone && balls.hold(before_.position(v))) {
-      raised.push_back(v);
-    }
-  }
+  in_chunks(before_.vertices(), raised, pace,
+            [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+              for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+                const bool was_there = before_.any_from(v) != CollapseMesh::kGone;
+                if (was_there && balls.hold(before_.position(v))) found.push_back(v);
+              }
+            });
   sort_unique(raised);
   for (const std::uint32_t v : raised) {
     if (state_.caution[v] < CollapseState::kStays) ++state_.caution[v];
@@ -266,40 +303,63 @@ void BoundKeeper::raise_caution(const Faults& faults, double radius_mm) {
 }
 
 /// Vertices of the faults, and those that are around these now, become what they were before.
-void BoundKeeper::take_back(const Faults& faults, double radius_mm, const CollapseRules& rules) {
-  std::vector<std::uint8_t> goes_back(state_.mesh.vertices(), 0);
+void BoundKeeper::take_back(const Faults& faults, double radius_mm, const CollapseRules& rules,
+                            const Pace& pace) {
+  std::vector<std::uint32_t> around;
   for (const Fault& fault : faults) {
-    for (const std::uint32_t v : fault.vertices) goes_back[v] = 1;
+    around.insert(around.end(), fault.vertices.begin(), fault.vertices.end());
   }
   const Balls balls = balls_around(faults, radius_mm);
-  for (const std::uint32_t v : kept_) {
-    if (balls.hold(state_.mesh.position(v))) goes_back[v] = 1;
-  }
-  const std::vector<std::uint32_t> back = state_.mesh.restore(before_, goes_back);
+  in_chunks(kept_.size(), around, pace,
+            [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+              for (std::size_t i = begin; i < end; ++i) {
+                if (balls.hold(state_.mesh.position(kept_[i]))) found.push_back(kept_[i]);
+              }
+            });
+  std::vector<std::uint8_t> goes_back(state_.mesh.vertices(), 0);
+  for (const std::uint32_t v : around) goes_back[v] = 1;
+  const std::vector<std::uint32_t> back = state_.mesh.restore(before_, goes_back, pace);
   for (const std::uint32_t v : back) {
     state_.quadrics[v] = quadrics_before_[v];
     state_.moved[v] = 1;
   }
-  collapse_again(back, rules);
+  collapse_again(back, rules, pace);
 }
 
-/// Only vertices that went back and their neighbours move.
-void BoundKeeper::collapse_again(const std::vector<std::uint32_t>& vertices,
-                                 const CollapseRules& rules) {
+/// These vertices, those next to them, which move too, and those next to these: in blocks of which
+/// no two have one in common, ascending by their first vertices.
+std::vector<VertexBlock> BoundKeeper::separate_blocks(const std::vector<std::uint32_t>& vertices) {
+  const CollapseMesh& mesh = state_.mesh;
+  const VertexBlock moving = with_neighbours(mesh, vertices);
   std::fill(state_.stays.begin(), state_.stays.end(), 1);
-  VertexBlock block = vertices;
-  for (const std::uint32_t v : vertices) {
-    const HalfEdge first = state_.mesh.any_from(v);
-    HalfEdge h = first;
-    do {
-      block.push_back(state_.mesh.to(h));
-      h = state_.mesh.next_around(h);
-    } while (h != first);
+  DisjointSets sets(mesh.vertices());
+  for (const std::uint32_t v : moving) {
+    state_.stays[v] = 0;
+    for_each_neighbour(mesh, v, [&](std::uint32_t other) { sets.unite(v, other); });
   }
-  sort_unique(block);
-  for (const std::uint32_t v : block) state_.stays[v] = 0;
-  CollapseBlock again(state_, block, rules);
-  again.advance(CostQueue::kClasses - 1, block.size(), probes_.mine());
+  // A set is named by its first vertex, which comes before all others of it.
+  std::vector<VertexBlock> blocks;
+  std::vector<std::size_t> block_of(mesh.vertices(), 0);
+  for (const std::uint32_t v : with_neighbours(mesh, moving)) {
+    const std::uint32_t name = sets.find(v);
+    if (name == v) {
+      block_of[v] = blocks.size();
+      blocks.emplace_back();
+    }
+    blocks[block_of[name]].push_back(v);
+  }
+  return blocks;
+}
+
+/// Only vertices that went back and their neighbours move. What goes on in one place has nothing to
+/// do with another: the same as one after the other.
+void BoundKeeper::collapse_again(const std::vector<std::uint32_t>& vertices,
+                                 const CollapseRules& rules, const Pace& pace) {
+  std::vector<CollapseBlock> blocks;
+  for (const VertexBlock& block : separate_blocks(vertices)) {
+    blocks.emplace_back(state_, block, rules);
+  }
+  advance_to_end(blocks, CostQueue::kClasses - 1, probes_, pace);
 }
 
 bool BoundKeeper::settle(const CollapseRules& rules, const Pace& pace) {
@@ -309,19 +369,20 @@ bool BoundKeeper::settle(const CollapseRules& rules, const Pace& pace) {
     state_.mesh.shorten_ways();
     state_.mesh.round_to_float();
     unfitted_ = state_.mesh.positions();
-    fit();
     // Most of the work is to look at everything once.
-    Faults faults = find_faults(round == 0 ? pace.part(0.0, 0.8) : rest);
+    const bool is_first = round == 0;
+    fit(is_first ? pace.part(0.0, 0.1) : rest);
+    Faults faults = find_faults(is_first ? pace.part(0.1, 0.8) : rest);
     while (take_back_fit(faults)) faults = find_faults(rest);
     if (faults.empty()) return true;
     // What was wrong before may be mended by steps and the fit, but not by going back once more.
-    const bool may_be_mended = round < CollapseState::kStays || !was_there_before(faults);
+    const bool may_be_mended = round < CollapseState::kStays || !was_there_before(faults, rest);
     if (!may_be_mended || round == kMostRounds) return false;
     // What is at fault may lie beside: ever wider, but only the vertices themselves at first.
     const int doublings = std::min(round, kMostDoublings);
     const double radius_mm = kFirstRadius * (1 << doublings) * target_.voxel_mm();
-    raise_caution(faults, radius_mm);
-    take_back(faults, round == 0 ? 0.0 : radius_mm, rules);
+    raise_caution(faults, radius_mm, rest);
+    take_back(faults, round == 0 ? 0.0 : radius_mm, rules, rest);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "decimate/collapse_block.h"
 #include "decimate/thread_probes.h"
 #include "decimate/triangle_walk.h"
+#include "decimate/vertex_blocks.h"
 
 namespace argil::mesh {
 
@@ -62,19 +63,24 @@ class BoundKeeper {
   static Balls balls_around(const Faults& faults, double radius_mm);
   bool has_moved(HalfEdge triangle) const;
   bool needs_proof(const Cell& cell) const;
-  void fit();
+  void fit(const Pace& pace);
   void prove_cells(Faults& faults, const Pace& pace);
-  void prove_cell(std::uint32_t c, TriangleWalk& walk, Faults& faults);
+  void begin_near(std::uint32_t vertex, std::uint32_t cell, SheetWalks& walks) const;
+  void rely_on(const SheetWalks& walks, Cell& cell) const;
+  void prove_cell(std::uint32_t c, SheetWalks& walks, Faults& faults);
   void prove_triangles(Faults& faults, const Pace& pace);
   void find_folds(Faults& faults, const Pace& pace);
   Faults find_faults(const Pace& pace);
   bool take_back_fit(const Faults& faults);
   bool is_as_before(HalfEdge triangle) const;
   bool was_there_before(const Fault& fault) const;
-  bool was_there_before(const Faults& faults) const;
-  void raise_caution(const Faults& faults, double radius_mm);
-  void take_back(const Faults& faults, double radius_mm, const CollapseRules& rules);
-  void collapse_again(const std::vector<std::uint32_t>& vertices, const CollapseRules& rules);
+  bool was_there_before(const Faults& faults, const Pace& pace) const;
+  void raise_caution(const Faults& faults, double radius_mm, const Pace& pace);
+  void take_back(const Faults& faults, double radius_mm, const CollapseRules& rules,
+                 const Pace& pace);
+  std::vector<VertexBlock> separate_blocks(const std::vector<std::uint32_t>& vertices);
+  void collapse_again(const std::vector<std::uint32_t>& vertices, const CollapseRules& rules,
+                      const Pace& pace);
 
   CollapseState& state_;
   const TriangleMesh& surface_;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -282,15 +284,52 @@ void CollapseBlock::apply(const Step& step) {
   } while (h != first);
 }
 
-std::size_t CollapseBlock::advance(std::uint16_t last, std::size_t most, DistanceProbe& field) {
+/// `goes_on(looked, steps)` is asked before each edge, with how many were looked at and became
+/// steps.
+template <class GoesOn>
+std::size_t CollapseBlock::advance_while(std::uint16_t last, DistanceProbe& field,
+                                         const GoesOn& goes_on) {
   field_ = &field;
   std::size_t steps = 0;
   HalfEdge edge = 0;
-  while (steps < most && queue_.take(edge, last)) {
+  for (std::size_t looked = 0; goes_on(looked, steps) && queue_.take(edge, last); ++looked) {
     if (!mesh_.is_gone(edge) && try_step(edge)) ++steps;
   }
   field_ = nullptr;
   return steps;
+}
+
+std::size_t CollapseBlock::advance(std::uint16_t last, std::size_t most, DistanceProbe& field) {
+  return advance_while(last, field,
+                       [most](std::size_t, std::size_t steps) { return steps < most; });
+}
+
+std::size_t CollapseBlock::look_at(std::uint16_t last, std::size_t edges, DistanceProbe& field) {
+  return advance_while(last, field,
+                       [edges](std::size_t looked, std::size_t) { return looked < edges; });
+}
+
+/// A few blocks at a time: those find the field's cells in the cache.
+std::size_t advance_to_end(std::vector<CollapseBlock>& blocks, std::uint16_t last,
+                           ThreadProbes& probes, const Pace& pace) {
+  constexpr std::size_t kAtATime = 16;
+  constexpr std::size_t kEdges = 2048;  // some 10 ms where they ask the field
+  std::vector<std::size_t> steps(blocks.size(), 0);
+  for (std::size_t first = 0; first < blocks.size(); first += kAtATime) {
+    const std::size_t end = std::min(blocks.size(), first + kAtATime);
+    const auto has_more = [&] {
+      return std::any_of(blocks.begin() + static_cast<std::ptrdiff_t>(first),
+                         blocks.begin() + static_cast<std::ptrdiff_t>(end),
+                         [last](CollapseBlock& block) { return block.next_class() <= last; });
+    };
+    while (has_more()) {
+      pace.at(static_cast<double>(first) / static_cast<double>(blocks.size()));
+      tbb::parallel_for(first, end, [&](std::size_t b) {
+        steps[b] += blocks[b].look_at(last, kEdges, probes.mine());
+      });
+    }
+  }
+  return std::accumulate(steps.begin(), steps.end(), std::size_t{0});
 }
 
 }  // namespace argil::mesh

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "argil/core/distance_probe.h"
+#include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 
 #include "decimate/collapse_mesh.h"
 #include "decimate/cost_queue.h"
 #include "decimate/quadric.h"
+#include "decimate/thread_probes.h"
 #include "decimate/vertex_blocks.h"
 
 namespace argil::mesh {
@@ -59,6 +61,8 @@ class CollapseBlock {
   /// Steps in classes up to `last`, `most` of them at most; returns how many. `field` is of this
   /// thread.
   std::size_t advance(std::uint16_t last, std::size_t most, DistanceProbe& field);
+  /// As advance, but until so many edges were looked at, whether that made steps of them or not.
+  std::size_t look_at(std::uint16_t last, std::size_t edges, DistanceProbe& field);
   std::size_t vertices_left() const noexcept { return vertices_left_; }
 
  private:
@@ -88,6 +92,8 @@ class CollapseBlock {
   bool has_cost(const Step& step);
   void refuse(HalfEdge edge);
   bool try_step(HalfEdge edge);
+  template <class GoesOn>
+  std::size_t advance_while(std::uint16_t last, DistanceProbe& field, const GoesOn& goes_on);
   bool is_allowed(const Step& step);
   void apply(const Step& step);
 
@@ -100,5 +106,10 @@ class CollapseBlock {
   std::vector<StarTriangle> star_;
   std::vector<std::uint32_t> ring_;
 };
+
+/// Advances blocks through classes up to `last`, to their ends, and hears an interruption now and
+/// then; returns how many steps that took. Throws Interrupted.
+std::size_t advance_to_end(std::vector<CollapseBlock>& blocks, std::uint16_t last,
+                           ThreadProbes& probes, const Pace& pace);
 
 }  // namespace argil::mesh

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/mesh/edges.h"
 
@@ -65,11 +66,12 @@ class CollapseMesh {
   /// Takes back the steps since `before` by which the vertices marked in `goes_back` came to be:
   /// all that became one of them is a vertex again, where it was, with the triangles around it. The
   /// rest stays as it is. Where that would not be two-manifold neighbours are marked and go back as
-  /// well. Returns the vertices that went back, ascending.
+  /// well. Returns the vertices that went back, ascending. Throws Interrupted; what is left then is
+  /// of no use.
   ///
   /// Cost  1 ns for each vertex of all, 1 us for each that goes back.
   std::vector<std::uint32_t> restore(const CollapseMesh& before,
-                                     std::vector<std::uint8_t>& goes_back);
+                                     std::vector<std::uint8_t>& goes_back, const Pace& pace);
 
   /// What is left, in the old order; `kept` becomes the old number of each vertex.
   TriangleMesh mesh(std::vector<std::uint32_t>& kept) const;

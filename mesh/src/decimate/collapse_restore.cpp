@@ -17,8 +17,13 @@ namespace argil::mesh {
 
 class CollapseMesh::Restoring {
  public:
-  Restoring(CollapseMesh& mesh, const CollapseMesh& before, std::vector<std::uint8_t>& goes_back)
-      : mesh_(mesh), before_(before), goes_back_(goes_back), is_back_(mesh.vertices(), 0) {
+  Restoring(CollapseMesh& mesh, const CollapseMesh& before, std::vector<std::uint8_t>& goes_back,
+            const Pace& pace)
+      : mesh_(mesh),
+        before_(before),
+        goes_back_(goes_back),
+        pace_(pace),
+        is_back_(mesh.vertices(), 0) {
     assert(before.vertices() == mesh.vertices() && goes_back.size() == mesh.vertices());
   }
 
@@ -49,6 +54,10 @@ class CollapseMesh::Restoring {
     std::size_t triangles = 0;
   };
 
+  /// Of as many as take some 50 ms an interruption is heard before the first.
+  void hear(std::size_t number) const {
+    if (number % 65536 == 0) pace_.at(0.0);
+  }
   void find();
   void find_triangle(HalfEdge first);
   bool find_twins();
@@ -66,6 +75,7 @@ class CollapseMesh::Restoring {
   CollapseMesh& mesh_;
   const CollapseMesh& before_;
   std::vector<std::uint8_t>& goes_back_;
+  Pace pace_;                          ///< how often all is looked at again is not known before
   std::vector<std::uint8_t> is_back_;  ///< of each vertex: it was there before and is again
   std::vector<std::uint32_t> back_;    ///< these
   std::vector<HalfEdge> away_;         ///< a half-edge of each triangle around these that is not
@@ -82,7 +92,10 @@ void CollapseMesh::Restoring::find() {
     is_back_[v] = before_.out_[v] != kGone && goes_back_[mesh_.became(v)] != 0 ? 1 : 0;
     if (is_back_[v] != 0) back_.push_back(v);
   }
-  for (const std::uint32_t v : back_) {
+  pace_.at(0.0);
+  for (std::size_t i = 0; i < back_.size(); ++i) {
+    hear(i);
+    const std::uint32_t v = back_[i];
     const HalfEdge first = before_.out_[v];
     HalfEdge h = first;
     do {
@@ -142,7 +155,9 @@ bool CollapseMesh::Restoring::find_twins() {
     return e.ends() < ends;
   };
   bool are_all_good = true;
-  for (Edge& edge : edges_) {
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    hear(i);
+    Edge& edge = edges_[i];
     int same_way = 0;
     int back = 0;
     auto e = std::lower_bound(edges_.begin(), edges_.end(), edge.ends(), less);
@@ -221,8 +236,9 @@ bool CollapseMesh::Restoring::are_round() {
 }
 
 std::vector<std::uint32_t> CollapseMesh::restore(const CollapseMesh& before,
-                                                 std::vector<std::uint8_t>& goes_back) {
-  return Restoring(*this, before, goes_back).run();
+                                                 std::vector<std::uint8_t>& goes_back,
+                                                 const Pace& pace) {
+  return Restoring(*this, before, goes_back, pace).run();
 }
 
 }  // namespace argil::mesh

@@ -72,7 +72,6 @@ class CollapseRun {
   void advance(const Phase& phase, const Pace& pace);
   void advance_to(std::size_t goal, std::uint16_t end, std::vector<CollapseBlock>& blocks,
                   const Pace& pace);
-  void advance_all(std::uint16_t end, std::vector<CollapseBlock>& blocks, const Pace& pace);
   std::uint16_t advance_class(std::vector<CollapseBlock>& blocks, std::size_t goal,
                               std::uint16_t end);
   Collapsed collapsed() const;
@@ -172,27 +171,16 @@ void CollapseRun::advance_to(std::size_t goal, std::uint16_t end,
   }
 }
 
-/// Every block to its end, which is the same as class by class where no count is to be reached, but
-/// one block after another finds the field's cells in the cache.
-void CollapseRun::advance_all(std::uint16_t end, std::vector<CollapseBlock>& blocks,
-                              const Pace& pace) {
-  constexpr std::size_t kAtATime = 16;  // some 100 ms; then an interruption is heard
-  std::vector<std::size_t> steps(blocks.size(), 0);
-  for (std::size_t first = 0; first < blocks.size(); first += kAtATime) {
-    pace.at(static_cast<double>(first) / static_cast<double>(blocks.size()));
-    tbb::parallel_for(first, std::min(blocks.size(), first + kAtATime), [&](std::size_t b) {
-      steps[b] = blocks[b].advance(end - 1, blocks[b].vertices_left(), probes_.mine());
-    });
-  }
-  triangles_ -= 2 * std::accumulate(steps.begin(), steps.end(), std::size_t{0});
-}
-
 void CollapseRun::advance(const Phase& phase, const Pace& pace) {
   if (triangles_ <= enough_ + phase.more) return;
   const std::vector<VertexBlock> blocks = cut(phase);
   const std::size_t rims = mark_rims(blocks);
   std::vector<CollapseBlock> runs = begin(blocks, phase.rules);
-  if (!has_count_) return advance_all(phase.end, runs, pace);
+  if (!has_count_) {
+    // The same as class by class where no count is to be reached.
+    triangles_ -= 2 * advance_to_end(runs, phase.end - 1, probes_, pace);
+    return;
+  }
   const std::size_t goal = enough_ + phase.more + (phase.more > 0 ? 2 * rims : 0);
   advance_to(goal, phase.end, runs, pace);
 }

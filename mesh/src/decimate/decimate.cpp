@@ -79,7 +79,9 @@ Pace Rounds::next_part() {
 }
 
 Result<void> Rounds::one_round() {
-  auto collapsed = collapse_edges(surface_, target_, options_.triangles, locked_, next_part());
+  const Pace pace = next_part();
+  auto collapsed =
+      collapse_edges(surface_, target_, options_.triangles, locked_, pace.part(0.0, 0.8));
   if (!collapsed) return collapsed.error();
   ++made_.report.rounds;
   made_.report.collapses = collapsed.value().steps;
@@ -91,7 +93,7 @@ Result<void> Rounds::one_round() {
   // After rounding: vertices that are put back here are not rounded again, and the file must hold
   // just these.
   unfitted_ = made_.mesh.positions;
-  fit_vertices(made_.mesh, target_, fixed);
+  fit_vertices(made_.mesh, target_, fixed, pace.part(0.8, 1.0));
   made_.mesh = rounded_to_float(std::move(made_.mesh));
   return {};
 }

@@ -27,6 +27,19 @@ struct Wishes {
   std::array<Quadric, 3> corner;
 };
 
+/// Runs `work(begin, end)` over pieces of all that is to be done, and hears an interruption between
+/// some of them.
+template <class Work>
+void in_fit_pieces(std::size_t count, const Pace& pace, const Work& work) {
+  constexpr std::size_t kPiece = 1024;
+  constexpr std::size_t kAtATime = 32 * kPiece;  // some 100 ms where they ask the field
+  for (std::size_t first = 0; first < count; first += kAtATime) {
+    pace.at(static_cast<double>(first) / static_cast<double>(count));
+    const tbb::blocked_range<std::size_t> range(first, std::min(count, first + kAtATime), kPiece);
+    tbb::parallel_for(range, [&](const auto& r) { work(r.begin(), r.end()); });
+  }
+}
+
 class Fit {
  public:
   Fit(TriangleMesh& mesh, const DecimationTarget& target, const std::vector<bool>& fixed)
@@ -34,14 +47,14 @@ class Fit {
     assert(fixed.size() == mesh.positions.size());
     find_triangles_around();
   }
-  void sweep();
+  void sweep(const Pace& pace);
 
  private:
   void find_triangles_around();
-  void ask_field();
+  void ask_field(const Pace& pace);
   Wishes wishes_of(const Triangle& t, DistanceProbe& field) const;
-  std::vector<Vec3> moved() const;
-  void keep_shape(std::vector<Vec3>& moved) const;
+  std::vector<Vec3> moved(const Pace& pace) const;
+  void keep_shape(std::vector<Vec3>& moved, const Pace& pace) const;
   bool is_worse(std::size_t t, const std::vector<Vec3>& moved) const;
 
   TriangleMesh& mesh_;
@@ -92,11 +105,11 @@ Wishes Fit::wishes_of(const Triangle& t, DistanceProbe& field) const {
   return wishes;
 }
 
-void Fit::ask_field() {
+void Fit::ask_field(const Pace& pace) {
   wishes_.resize(mesh_.triangles.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, wishes_.size(), 1024), [&](const auto& r) {
+  in_fit_pieces(wishes_.size(), pace, [&](std::size_t begin, std::size_t end) {
     const std::unique_ptr<DistanceProbe> field = target_.probe();
-    for (std::size_t t = r.begin(); t < r.end(); ++t) {
+    for (std::size_t t = begin; t < end; ++t) {
       const Triangle& tri = mesh_.triangles[t];
       const bool stays = std::all_of(tri.begin(), tri.end(),
                                      [&](std::uint32_t v) { return static_cast<bool>(fixed_[v]); });
@@ -105,19 +118,21 @@ void Fit::ask_field() {
   });
 }
 
-std::vector<Vec3> Fit::moved() const {
+std::vector<Vec3> Fit::moved(const Pace& pace) const {
   // Must stay below 2: up to there a step still lowers the quadric that bounds the error.
   constexpr double kOverRelaxed = 1.6;
   std::vector<Vec3> to = mesh_.positions;
-  tbb::parallel_for(std::size_t{0}, to.size(), [&](std::size_t v) {
-    if (fixed_[v]) return;
-    Quadric sum;
-    // Gathered by vertex and not added up by triangle: one order of summation for any
-    // number of threads.
-    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-      sum += wishes_[corners_[i] / 3].corner[corners_[i] % 3];
+  in_fit_pieces(to.size(), pace, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (fixed_[v]) continue;
+      Quadric sum;
+      // Gathered by vertex and not added up by triangle: one order of summation for any
+      // number of threads.
+      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+        sum += wishes_[corners_[i] / 3].corner[corners_[i] % 3];
+      }
+      if (const std::optional<Vec3> step = sum.least()) to[v] += kOverRelaxed * *step;
     }
-    if (const std::optional<Vec3> step = sum.least()) to[v] += kOverRelaxed * *step;
   });
   return to;
 }
@@ -141,13 +156,13 @@ bool Fit::is_worse(std::size_t t, const std::vector<Vec3>& moved) const {
 }
 
 /// Takes back the corners of triangles that became worse until none is.
-void Fit::keep_shape(std::vector<Vec3>& moved) const {
+void Fit::keep_shape(std::vector<Vec3>& moved, const Pace& pace) const {
   std::vector<std::uint8_t> worse(mesh_.triangles.size(), 1);
   // What goes back may make a neighbour worse. This ends, since every pass puts a vertex
   // back for good.
   for (bool again = true; again;) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, worse.size(), 1024), [&](const auto& r) {
-      for (std::size_t t = r.begin(); t < r.end(); ++t) {
+    in_fit_pieces(worse.size(), pace, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
         const Triangle& tri = mesh_.triangles[t];
         const bool has_moved = std::any_of(tri.begin(), tri.end(), [&](std::uint32_t v) {
           return moved[v] != mesh_.positions[v];
@@ -164,10 +179,11 @@ void Fit::keep_shape(std::vector<Vec3>& moved) const {
   }
 }
 
-void Fit::sweep() {
-  ask_field();
-  std::vector<Vec3> to = moved();
-  keep_shape(to);
+void Fit::sweep(const Pace& pace) {
+  ask_field(pace.part(0.0, 0.8));
+  std::vector<Vec3> to = moved(pace.part(0.8, 0.9));
+  // How often it goes over all of them is not known before.
+  keep_shape(to, pace.part(0.9, 0.9));
   assert(to.size() == mesh_.positions.size());
   mesh_.positions = std::move(to);
 }
@@ -175,9 +191,11 @@ void Fit::sweep() {
 }  // namespace
 
 void fit_vertices(TriangleMesh& mesh, const DecimationTarget& target,
-                  const std::vector<bool>& fixed) {
+                  const std::vector<bool>& fixed, const Pace& pace) {
   Fit fit(mesh, target, fixed);
-  for (int i = 0; i < kSweeps; ++i) fit.sweep();
+  for (int i = 0; i < kSweeps; ++i) {
+    fit.sweep(pace.part(static_cast<double>(i) / kSweeps, (i + 1.0) / kSweeps));
+  }
 }
 
 }  // namespace argil::mesh

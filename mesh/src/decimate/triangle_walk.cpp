@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <limits>
 #include <unordered_set>
 
 #include "argil/core/closest_on_triangle.h"
@@ -82,6 +83,34 @@ double TriangleWalk::distance_far_mm(const Vec3& point_mm, double enough_mm) {
   }
   rely();
   return least_;
+}
+
+void SheetWalks::begin(std::uint32_t vertex) {
+  count_ = 0;
+  begin_also(vertex);
+}
+
+void SheetWalks::begin_also(std::uint32_t vertex) {
+  if (count_ == walks_.size()) walks_.emplace_back(mesh_);
+  walks_[count_++].begin(vertex);
+}
+
+double SheetWalks::distance_mm(const Vec3& point_mm, double enough_mm) {
+  assert(count_ > 0);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t w = 0; w < count_ && least > enough_mm; ++w) {
+    least = std::min(least, walks_[w].distance_mm(point_mm, enough_mm));
+  }
+  return least;
+}
+
+/// Far only where no sheet is near enough, since that takes long.
+double SheetWalks::distance_far_mm(const Vec3& point_mm, double enough_mm) {
+  double least = distance_mm(point_mm, enough_mm);
+  for (std::size_t w = 0; w < count_ && least > enough_mm; ++w) {
+    least = std::min(least, walks_[w].distance_far_mm(point_mm, enough_mm));
+  }
+  return least;
 }
 
 }  // namespace argil::mesh

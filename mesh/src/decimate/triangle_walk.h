@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "argil/mesh/decimate.h"
@@ -39,6 +41,28 @@ class TriangleWalk final : public NearTriangles {
   double least_ = 0.0;
   std::vector<HalfEdge> relied_on_;
   std::vector<HalfEdge> reached_;
+};
+
+/// Looks on several sheets at once, from a triangle of each.
+class SheetWalks final : public NearTriangles {
+ public:
+  /// `mesh` must outlive this, and stay as it is.
+  explicit SheetWalks(const CollapseMesh& mesh) : mesh_(mesh) {}
+
+  /// Begins at a vertex of each sheet, which must be there: first at `vertex`.
+  void begin(std::uint32_t vertex);
+  void begin_also(std::uint32_t vertex);
+  const CollapseMesh& mesh() const noexcept { return mesh_; }
+  /// Of the sheets in the order in which they were begun; there is one at least.
+  std::span<const TriangleWalk> walks() const noexcept { return {walks_.data(), count_}; }
+
+  double distance_mm(const Vec3& point_mm, double enough_mm) override;
+  double distance_far_mm(const Vec3& point_mm, double enough_mm) override;
+
+ private:
+  const CollapseMesh& mesh_;
+  std::vector<TriangleWalk> walks_;  ///< with their memory
+  std::size_t count_ = 0;
 };
 
 }  // namespace argil::mesh

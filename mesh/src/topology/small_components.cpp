@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -49,6 +52,33 @@ SmallComponents drop_small_components(TriangleMesh& mesh, double voxel_mm) {
   small.mesh = only_triangles(mesh, in_small);
   mesh = only_triangles(mesh, [&](std::size_t t) { return !in_small(t); });
   return small;
+}
+
+std::int64_t put_back(TriangleMesh& mesh, SmallComponents& small,
+                      std::span<const std::uint32_t> vertices) {
+  assert(mesh.normals.empty() && small.mesh.normals.empty());
+  std::vector<bool> is_asked(small.mesh.positions.size(), false);
+  for (const std::uint32_t v : vertices) is_asked[v] = true;
+  const MeshParts parts = parts_by_vertices(small.mesh);
+  std::vector<bool> goes_back(parts.count, false);
+  for (std::size_t t = 0; t < parts.of_triangle.size(); ++t) {
+    const Triangle& of = small.mesh.triangles[t];
+    if (std::any_of(of.begin(), of.end(), [&](std::uint32_t v) { return is_asked[v]; })) {
+      goes_back[parts.of_triangle[t]] = true;
+    }
+  }
+  const auto is_back = [&](std::size_t t) { return goes_back[parts.of_triangle[t]]; };
+  const TriangleMesh back = only_triangles(small.mesh, is_back);
+  small.mesh = only_triangles(small.mesh, [&](std::size_t t) { return !is_back(t); });
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), back.positions.begin(), back.positions.end());
+  for (const auto& [a, b, c] : back.triangles) {
+    mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+  const std::int64_t count = std::count(goes_back.begin(), goes_back.end(), true);
+  small.count -= count;
+  assert(small.count >= 0);
+  return count;
 }
 
 }  // namespace argil::mesh

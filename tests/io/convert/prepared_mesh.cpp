@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "argil/engine/sculpture.h"
+
 #include "support/scratch.h"
 
 namespace argil::io {

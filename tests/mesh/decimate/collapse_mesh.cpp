@@ -6,10 +6,13 @@
 #include <cstdio>
 #include <optional>
 #include <random>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "argil/core/pace.h"
 
 #include "support/shapes.h"
 
@@ -75,11 +78,22 @@ TEST(CollapseMesh, GoesBackWhole) {
   const CollapseMesh before = *mesh;
   collapse(*mesh, 20);
   std::vector<std::uint8_t> all(ball.positions.size(), 1);
-  EXPECT_EQ(mesh->restore(before, all).size(), ball.positions.size());
+  EXPECT_EQ(mesh->restore(before, all, Pace(Progress{}, "")).size(), ball.positions.size());
   std::vector<std::uint32_t> kept;
   const TriangleMesh again = mesh->mesh(kept);
   EXPECT_EQ(again.triangles, ball.triangles);
   EXPECT_EQ(again.positions, ball.positions);
+}
+
+TEST(CollapseMesh, HearsAnInterruptionWhileItGoesBack) {
+  const TriangleMesh ball = test::ball_mesh(5.0, 3);
+  std::optional<CollapseMesh> mesh = CollapseMesh::build(ball);
+  ASSERT_TRUE(mesh);
+  const CollapseMesh before = *mesh;
+  collapse(*mesh, 20);
+  std::vector<std::uint8_t> all(ball.positions.size(), 1);
+  const Progress stop = [](std::string_view, double) { return false; };
+  EXPECT_THROW(mesh->restore(before, all, Pace(stop, "")), Interrupted);
 }
 
 /// All that a vertex was in `before`, but not where what became another one is.
@@ -120,7 +134,7 @@ TEST(CollapseMesh, GoesBackAroundAFewVerticesAndStaysClosed) {
         groups.push_back(v);
       }
     }
-    const std::vector<std::uint32_t> back = mesh->restore(before, goes);
+    const std::vector<std::uint32_t> back = mesh->restore(before, goes, Pace(Progress{}, ""));
     EXPECT_TRUE(std::includes(back.begin(), back.end(), groups.begin(), groups.end()));
     widened += back.size() > groups.size() ? 1 : 0;
     for (const std::uint32_t v : back) expect_back(*mesh, before, v);

@@ -13,7 +13,9 @@ namespace argil::io {
 ///
 /// Shapes       surface: as extract_surface gives it, small components left out or not; `left_out`
 ///              as for measure_error (measure_error.h).
-/// Errors       as mesh::decimate.
+/// Errors       as mesh::decimate; with a bound bad_input, before anything is removed, where the
+///              clay does not tell what was left out from what is beside it within one voxel: it
+///              names the place.
 /// Accuracy     max_error_mm is kept both ways, proven with 2 % in hand
 ///              (DecimateScenes.NeverExceedsTheErrorAsked).
 /// Threads      as Clay.

@@ -29,7 +29,9 @@ struct ExportReport {
   double volume_change =
       0.0;                 ///< (volume of the written mesh - of the extracted surface) / the latter
   std::int64_t parts = 1;  ///< how many objects were written
-  std::int64_t removed_components = 0;  ///< closed parts smaller than one finest voxel's volume
+  /// Closed parts smaller than one finest voxel's volume. With a bound those stay that the clay
+  /// does not tell from what is beside them within one voxel.
+  std::int64_t removed_components = 0;
   std::int64_t collapsed_edges =
       0;                      ///< slivers that rounding to float had folded, shrunk to a point
   mesh::MeshVerdict verdict;  ///< of the file read back, after rounding to its floats
@@ -45,7 +47,8 @@ struct ExportReport {
 ///          (decimate.h); disk; interrupted.
 /// Threads  as Clay; measuring spreads over TBB. Same bytes and figures for any number of threads.
 /// Cost     about 2 us of CPU time for each triangle of the surface, 10 us where triangles are
-///          removed; at most 220 bytes for each triangle written (docs/printing.md).
+///          removed; above what the clay takes 200 bytes for each of them at most, 360 with a bound
+///          (measured at a million: 185 and 344, docs/printing.md).
 Result<ExportReport> export_mesh(const std::filesystem::path& file, const Clay& clay,
                                  const ExportOptions& options, const Progress& progress = {});
 

@@ -38,8 +38,13 @@ class BoundProof {
   virtual std::uint32_t cells() const = 0;
   /// A vertex in or next to the cell, of the surface that the proof was made for.
   virtual std::uint32_t vertex_of(std::uint32_t cell) const = 0;
+  /// Where several sheets of that surface pass through the cell, as of a thin wall, a vertex of
+  /// each of the others; else none. They stay while this lives.
+  virtual std::span<const std::uint32_t> other_vertices_of(std::uint32_t /*cell*/) const {
+    return {};
+  }
   /// Whether every point with phi = 0 in the cell has a point of the mesh within the bound. `mesh`
-  /// begins its search near the cell.
+  /// begins its search near the cell, on every sheet.
   virtual bool is_near(std::uint32_t cell, NearTriangles& mesh) const = 0;
   /// Sets `is_near[t]` to 1 where |phi| is within the bound all over triangle t, else to 0. Both
   /// have the same size.

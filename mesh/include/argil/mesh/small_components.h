@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "argil/core/triangle_mesh.h"
 
@@ -25,5 +26,14 @@ struct SmallComponents {
 /// Errors       throws std::bad_alloc: to be called within no_throw.
 /// Cost         linear.
 SmallComponents drop_small_components(TriangleMesh& mesh, double voxel_mm);
+
+/// Puts those components back that have one of `vertices`, behind all else of the mesh. Returns how
+/// many.
+///
+/// Shapes       mesh: what they were taken out of, without normals; vertices: of small.mesh.
+/// Errors       throws std::bad_alloc: to be called within no_throw.
+/// Cost         linear in what was taken out.
+std::int64_t put_back(TriangleMesh& mesh, SmallComponents& small,
+                      std::span<const std::uint32_t> vertices);
 
 }  // namespace argil::mesh
