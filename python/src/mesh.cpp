@@ -146,12 +146,14 @@ void add_meshes(py::module_& module) {
       .def("vertices",
            [](const py::object& self) {
              const TriangleMesh& mesh = self.cast<const SharedMesh&>().mesh();
-             return triples_in_place(&mesh.positions.data()->x, mesh.positions.size(), self);
+             return triples_in_place(reinterpret_cast<const double*>(mesh.positions.data()),
+                                     mesh.positions.size(), self);
            })
       .def("normals",
            [](const py::object& self) {
              const TriangleMesh& mesh = self.cast<const SharedMesh&>().mesh();
-             return triples_in_place(&mesh.normals.data()->x, mesh.normals.size(), self);
+             return triples_in_place(reinterpret_cast<const double*>(mesh.normals.data()),
+                                     mesh.normals.size(), self);
            })
       .def("faces",
            [](const py::object& self) {
