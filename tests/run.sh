@@ -192,12 +192,18 @@ targets_of() { # PATTERN
   done < <(find tests -name '*.cpp') | sort -u
   ! grep -qE -- "$1" <<<Package.ServesAnOutsideProject || echo all
   ! grep -qE -- "$1" <<<Bench.RowsRunAndRepeatTheirBits || echo bench_argil
+  ! names_of_python | grep -qE -- "$1" || printf '%s\n' argil argil_python
 }
 
 # The programs of the tests that match by their whole names, as far as they are built.
 programs_of() { # PATTERN
   ctest --test-dir build/release -N --show-only=json-v1 -R "$1" |
     grep -oE '"[^"]*/tests/test_[a-z_]+"' | sed 's|.*/||; s|"||' | sort -u
+}
+
+# test_same_bits.py is Python.SameBits.
+names_of_python() {
+  basename -s .py tests/python/test_*.py | sed -E 's/^test//; s/_(.)/\u\1/g; s/^/Python./'
 }
 
 count_tests() { # [ctest options]
@@ -345,7 +351,7 @@ run_usual() { # "TARGETS" "LABELS LEFT OUT" [ctest options for the thread saniti
 run_thorough() {
   export ARGIL_THOROUGH=1
   run_usual "all benchmarks" ''
-  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_mesh test_io test_viewer" '' \
+  sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers test_mesh test_io test_viewer argil_python" '' \
     -DARGIL_SANITIZE_WITHOUT='' -DARGIL_SANITIZE_CGAL=ON
   end_threads
   stage "torture at length"
@@ -399,7 +405,7 @@ case $mode in
   usual)
     run_usual all '^slow$' -L threads # the rest of the thread sanitizer's starts none
     # Programs of a thorough run before, if there are any, are old.
-    sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" 'io|viewer' \
+    sanitize_addresses "test_core test_haptics test_falcon test_falcon_smoke test_readers" 'io|viewer|python' \
       -DARGIL_SANITIZE_WITHOUT=$costly_checks -DARGIL_SANITIZE_CGAL=OFF
     end_threads
     end_bare_systems

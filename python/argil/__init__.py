@@ -8,7 +8,7 @@ line and stroke scripts of Argil have, and the same calls give the same bits.
     >>> import argil
     >>> clay = argil.Clay.ball(20, voxel_mm=0.5)
     >>> clay.stroke([[0, 0, 20], [5, 0, 19]], tool="carve", radius_mm=4)["dabs"]
-    6
+    7
     >>> clay.export("piece.3mf")["printable"]
     True
 

@@ -14,11 +14,27 @@ Triple = Union[Sequence[float], Floats]
 
 
 def rows(name: str, values: ArrayLike) -> Floats:
-    """`values` as doubles: the same array where it is of doubles already."""
+    """`values` as doubles: the same array where it is of doubles already, in order and aligned."""
     try:
-        return np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+        given = np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
         raise BadInput(f"{name} is no array of numbers ({error}); give rows of numbers") from None
+    if given.dtype.kind not in "biuf":
+        raise BadInput(f"{name} is no array of numbers but of {given.dtype}; give rows of numbers")
+    return np.require(given, np.float64, ("C", "A"))
+
+
+def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
+    """`values` as whole numbers; (0, 3) where there are none."""
+    try:
+        given = np.asarray(values)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise BadInput(f"{name} is no array of numbers ({error}); give whole numbers") from None
+    if not given.size:
+        return np.empty((0, 3), np.int64)
+    if given.dtype.kind not in "iu":
+        raise BadInput(f"{name} are of {given.dtype}; give whole numbers")
+    return np.require(given, np.int64, ("C", "A"))
 
 
 def triple(name: str, values: Any) -> Tuple[float, float, float]:

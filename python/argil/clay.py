@@ -41,6 +41,7 @@ class Clay:
     """
 
     __slots__ = ("_clay",)
+    _clay: _native.Clay
 
     def __init__(self) -> None:
         raise TypeError("make a Clay by Clay.ball, Clay.block, Clay.from_mesh, Clay.from_script or "
@@ -73,7 +74,7 @@ class Clay:
     @classmethod
     def block(cls, size_mm: Triple, *, voxel_mm: float = 0.25, tolerance_voxels: float = 0.1,
               edge_radius_mm: Optional[float] = None) -> Clay:
-        """A block with sharp edges about the origin; further parameters as of `ball`."""
+        """A block with sharp edges about the origin, of size_mm (3,); further parameters as of `ball`."""
         return cls._of(_native.Clay.block(triple("size_mm", size_mm), voxel_mm, tolerance_voxels,
                                           edge_radius_mm))
 
@@ -86,7 +87,10 @@ class Clay:
 
         Parameters
         ----------
-        mesh : Mesh, anything with vertices and faces, a pair of arrays; or vertices, with `faces`
+        mesh : Mesh, anything with vertices (n, 3) and faces (m, 3), a pair of such arrays; or vertices
+            Closed, counter-clockwise seen from outside, in mm.
+        faces : array_like of int, (m, 3), optional
+            Where `mesh` is vertices alone.
         voxel_mm : float, optional
             None: the longest side over `resolution`.
         repair : bool
@@ -130,7 +134,10 @@ class Clay:
     def save(self, file: Path) -> None:
         """Writes a project (NAME.vdb), which OpenVDB's programs open too. The one before stays until
         the new one is whole."""
-        for note in self._clay.save(os.fspath(file)):
+        name = os.fspath(file)
+        if not name.lower().endswith(".vdb"):
+            raise _native.BadInput(f"file is {name!r}; must be a file name ending in .vdb")
+        for note in self._clay.save(name):
             warnings.warn(note, stacklevel=2)
 
     def copy(self) -> Clay:
@@ -194,7 +201,8 @@ class Clay:
         Parameters
         ----------
         poses : array_like, (n, 3), (n, 4) or (n, 9)
-            Rows of x, y, z; or t, x, y, z; or t, x, y, z, qw, qx, qy, qz, pressure. mm and s.
+            Rows of x, y, z, all at 0 s; or t, x, y, z; or t, x, y, z, qw, qx, qy, qz, pressure. mm and
+            s.
         tool : str
             'add', 'carve', 'smooth', 'inflate', ...: docs/actions.md.
         radius_mm : float, optional
@@ -246,7 +254,7 @@ class Clay:
         Parameters
         ----------
         drains : iterable of (point_mm, direction, radius_mm)
-            Round holes from outside into the cavity.
+            Round holes into the cavity, each from a point on the clay or outside it.
         """
         holes = [{"point_mm": triple("point_mm", point), "direction": triple("direction", direction),
                   "radius_mm": radius} for point, direction, radius in drains]
@@ -256,7 +264,15 @@ class Clay:
         self.apply(step)
 
     def cut(self, point_mm: Triple, normal: Triple, *, keep_front: bool = False) -> None:
-        """Takes away what lies before a plane, where `normal` points to; or behind it."""
+        """Takes away what lies before a plane, where `normal` points to; or behind it.
+
+        Parameters
+        ----------
+        point_mm, normal : (3,)
+            A point of the plane; a direction of any length but zero.
+        keep_front : bool
+            Takes away what lies behind it instead.
+        """
         self.apply({"operation": "cut", "point_mm": triple("point_mm", point_mm),
                     "normal": triple("normal", normal), "keeps_front": keep_front})
 
@@ -266,18 +282,28 @@ class Clay:
 
     def union(self, other: Union[Clay, MeshLike], *, position_mm: Triple = (0.0, 0.0, 0.0),
               orientation: Iterable[float] = _WITHOUT_TURN, repair: bool = True) -> None:
-        """Adds another clay or closed mesh where it is put: turned by a quaternion (scalar first)
-        about its origin, then moved. `repair` closes a mesh first."""
+        """Adds another clay or closed mesh.
+
+        Parameters
+        ----------
+        other : Clay; or a mesh as of `from_mesh`, in mm
+        position_mm : (3,)
+            Where its origin goes, after the turn.
+        orientation : (4,)
+            A quaternion that turns it about its origin, scalar first.
+        repair : bool
+            Closes a mesh first.
+        """
         self._combine("union", other, position_mm, orientation, repair)
 
     def difference(self, other: Union[Clay, MeshLike], *, position_mm: Triple = (0.0, 0.0, 0.0),
                    orientation: Iterable[float] = _WITHOUT_TURN, repair: bool = True) -> None:
-        """Takes another clay or mesh away; parameters as of `union`."""
+        """Takes another clay or mesh away, put at position_mm (3,); parameters as of `union`."""
         self._combine("difference", other, position_mm, orientation, repair)
 
     def intersection(self, other: Union[Clay, MeshLike], *, position_mm: Triple = (0.0, 0.0, 0.0),
                      orientation: Iterable[float] = _WITHOUT_TURN, repair: bool = True) -> None:
-        """Keeps what both have; parameters as of `union`."""
+        """Keeps what both have, the other put at position_mm (3,); parameters as of `union`."""
         self._combine("intersection", other, position_mm, orientation, repair)
 
     def _combine(self, kind: str, other: Union[Clay, MeshLike], position_mm: Triple,
@@ -285,7 +311,7 @@ class Clay:
         turn = tuple(float(number) for number in orientation)
         if len(turn) != 4 or not np.isfinite(turn).all():
             raise _native.BadInput(f"orientation is {turn!r}; give four finite numbers, scalar first")
-        solid = other._clay if isinstance(other, Clay) else Mesh.of(other)._mesh
+        solid: Union[_native.Clay, _native.Mesh] = other._clay if isinstance(other, Clay) else Mesh.of(other)._mesh
         self._clay.combine(kind, solid, triple("position_mm", position_mm), turn, repair)
 
     def undo(self) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import Floats, rows
+from ._arrays import Floats, indices, rows
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -45,15 +45,10 @@ class Mesh:
     __slots__ = ("_mesh",)
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
-        given = np.asarray(faces)
-        if given.size and not np.issubdtype(given.dtype, np.integer):
-            raise _native.BadInput(f"faces are of {given.dtype}; give whole numbers")
-        if not given.size:
-            given = given.reshape(0, 3).astype(np.int64)
         positions = rows("vertices", vertices)
         if not positions.size:
             positions = positions.reshape(0, 3)
-        self._mesh = _native.Mesh(positions, given)
+        self._mesh = _native.Mesh(positions, indices("faces", faces))
 
     @classmethod
     def _of(cls, native: _native.Mesh) -> Mesh:
@@ -63,7 +58,8 @@ class Mesh:
 
     @classmethod
     def of(cls, other: Union[MeshLike, Tuple[ArrayLike, ArrayLike]]) -> Mesh:
-        """`other` itself if it is a Mesh; else one of its vertices and faces, or of a pair of them."""
+        """`other` itself if it is a Mesh; else one of its vertices (n, 3), in mm, and faces (m, 3), or of a
+        pair of them."""
         if isinstance(other, Mesh):
             return other
         if isinstance(other, tuple) and len(other) == 2:
@@ -121,6 +117,7 @@ class Mesh:
 
     @property
     def area_mm2(self) -> float:
+        """Of all triangles, their one side each."""
         return self._mesh.area_mm2()
 
     def check(self, *, printer: Optional[Path] = None, min_wall_mm: float = 0.0,

@@ -47,11 +47,15 @@ def render(subject: Union[Clay, MeshLike], *, size: Tuple[int, int] = (640, 480)
 
 
 def png(pixels: Pixels) -> bytes:
-    """The bytes of a PNG of pixels (height, width, 3)."""
-    return _native.png(np.ascontiguousarray(pixels, dtype=np.uint8))
+    """The bytes of a PNG of uint8 pixels (height, width, 3)."""
+    given = np.asarray(pixels)
+    if given.dtype != np.uint8:
+        raise _native.BadInput(f"pixels are of {given.dtype}; give uint8, from 0 to 255")
+    return _native.png(np.ascontiguousarray(given))
 
 
 def save_png(file: Path, pixels: Pixels) -> None:
-    """Writes pixels (height, width, 3) as PNG."""
+    """Writes uint8 pixels (height, width, 3) as PNG."""
+    packed = png(pixels)
     with open(os.fspath(file), "wb") as picture:
-        picture.write(png(pixels))
+        picture.write(packed)

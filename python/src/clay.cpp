@@ -62,9 +62,20 @@ ClayHolder block(py::handle size_mm, double voxel_mm, double tolerance_voxels,
   return hold(run([&](const Progress&) { return Clay::block(size, options); }));
 }
 
+/// Throws where a vertex lies farther out than a clay can reach, which what closes and imports
+/// meshes relies on.
+void check_reach(const TriangleMesh& mesh) {
+  for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+    if (is_in_reach(mesh.positions[n])) continue;
+    raise_bad_input("vertex " + std::to_string(n) + " of the mesh lies more than " +
+                    std::to_string(static_cast<std::int64_t>(kMaxReachMm)) +
+                    " mm from the origin; scale it, or give its unit");
+  }
+}
+
 /// A mesh without holes: closed as `argil import` closes what it reads.
-Result<TriangleMesh> closed_mesh(const TriangleMesh& mesh) {
-  auto closed = mesh::close_mesh(mesh);
+Result<TriangleMesh> closed_mesh(const TriangleMesh& mesh, const Progress& progress) {
+  auto closed = mesh::close_mesh(mesh, progress);
   if (!closed) return closed.error();
   return std::move(closed.value().mesh);
 }
@@ -72,10 +83,11 @@ Result<TriangleMesh> closed_mesh(const TriangleMesh& mesh) {
 ClayHolder from_mesh(const SharedMesh& mesh, double voxel_mm, double tolerance_voxels,
                      std::optional<double> edge_radius_mm, bool repairs) {
   const ClayOptions options = options_of(voxel_mm, tolerance_voxels, edge_radius_mm);
+  check_reach(mesh.mesh());
   return hold(run([&](const Progress& progress) -> Result<Clay> {
     std::optional<TriangleMesh> closed;
     if (repairs) {
-      auto made = closed_mesh(mesh.mesh());
+      auto made = closed_mesh(mesh.mesh(), progress);
       if (!made) return made.error();
       closed = std::move(made).value();
     }
@@ -234,8 +246,9 @@ void combine(SharedClay& self, const std::string& kind,
         [](const Clay& source, const Progress&) -> Result<Clay> { return copy_of(source); }));
   } else {
     const SharedMesh& mesh = *std::get<std::shared_ptr<SharedMesh>>(other);
-    with.mesh = std::make_shared<const TriangleMesh>(run([&](const Progress&) {
-      return repairs ? closed_mesh(mesh.mesh()) : Result<TriangleMesh>(mesh.mesh());
+    check_reach(mesh.mesh());
+    with.mesh = std::make_shared<const TriangleMesh>(run([&](const Progress& progress) {
+      return repairs ? closed_mesh(mesh.mesh(), progress) : Result<TriangleMesh>(mesh.mesh());
     }));
   }
   self.run([&](Clay& clay, const Progress& progress) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "convert.h"
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "errors.h"
@@ -45,6 +47,14 @@ Vec3 vec3_of(const char* name, py::handle numbers) {
   } catch (const py::cast_error&) {
     raise_bad_input(std::string(name) + " is " + py::repr(numbers).cast<std::string>() +
                     "; give three numbers");
+  }
+}
+
+double number_of(const std::string& name, py::handle value) {
+  try {
+    return value.cast<double>();
+  } catch (const py::cast_error&) {
+    raise_bad_input(name + " is " + py::repr(value).cast<std::string>() + "; give a number");
   }
 }
 

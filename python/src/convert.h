@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
+#include <string>
 
 #include <nlohmann/json.hpp>
 #include <pybind11/pybind11.h>
@@ -18,6 +18,8 @@ py::object from_json(const nlohmann::ordered_json& json);
 
 /// Three numbers of any sequence; throws BadInput that calls it `name`.
 Vec3 vec3_of(const char* name, py::handle numbers);
+/// A number; throws BadInput that calls it `name`.
+double number_of(const std::string& name, py::handle value);
 py::tuple tuple_of(const Vec3& v);
 
 }  // namespace argil::python

@@ -13,10 +13,7 @@
 #include <utility>
 
 #include <pybind11/stl.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
-#include "argil/core/no_throw.h"
 #include "argil/engine/window.h"
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/force/tool_force.h"
@@ -24,6 +21,7 @@
 #include "arrays.h"
 #include "clay.h"
 #include "convert.h"
+#include "pieces.h"
 
 namespace argil::python {
 namespace {
@@ -50,6 +48,7 @@ class ForceWindow {
         sum_(setup.tool, setup.material, setup.law, window_.view.voxel_mm) {}
 
   const FieldWindowView& view() const noexcept { return window_.view; }
+  bool is_exact() const noexcept { return setup_.method == Method::fine; }
 
   /// `pose`: position, orientation and velocities; shape and radii are the window's.
   ForceResult at(ForceTool pose) const noexcept {
@@ -108,7 +107,7 @@ haptics::ForceMaterial material_of(const py::dict& numbers) {
     const auto* found = std::find_if(known.begin(), known.end(),
                                      [&](const Number& number) { return name == number.name; });
     if (found == known.end()) raise_bad_input("material has no '" + name + "'");
-    const auto number = value.cast<double>();
+    const double number = number_of(name, value);
     if (!(number >= found->least && number <= found->most)) {
       raise_bad_input(name + " is " + std::to_string(number) + "; must be from " +
                       std::to_string(found->least) + " to " + std::to_string(found->most));
@@ -220,21 +219,19 @@ py::dict force(const ForceWindow& self, const Rows& poses, const std::optional<R
   const auto [samples, sample_rows] = new_numbers<std::int32_t>(count);
   const auto [outside, outside_rows] = new_numbers<bool>(count);
   run([&, f = force_n, t = torque_nmm, e = energy_nmm, d = error_n, s = sample_rows,
-       o = outside_rows](const Progress&) {
-    return no_throw("force", [&]() -> Result<void> {
-      constexpr std::size_t kChunk = 256;
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk), [&](const auto& part) {
-        for (std::size_t n = part.begin(); n < part.end(); ++n) {
-          const ForceResult result = self.at(pose_of(poses, velocities, n));
-          f[n] = result.contact_n + result.viscosity_n;
-          t[n] = result.contact_nmm + result.viscosity_nmm;
-          e[n] = result.energy_nmm;
-          d[n] = result.error_n;
-          s[n] = result.samples;
-          o[n] = result.outside_window;
-        }
-      });
-      return {};
+       o = outside_rows](const Progress& progress) {
+    // One of the exact sum may take a thousand times what one of `lod` takes.
+    const std::size_t chunk = self.is_exact() ? 1 : 64;
+    return in_pieces("force", count, chunk, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        const ForceResult result = self.at(pose_of(poses, velocities, n));
+        f[n] = result.contact_n + result.viscosity_n;
+        t[n] = result.contact_nmm + result.viscosity_nmm;
+        e[n] = result.energy_nmm;
+        d[n] = result.error_n;
+        s[n] = result.samples;
+        o[n] = result.outside_window;
+      }
     });
   });
   py::dict dict;

@@ -8,15 +8,12 @@
 #include <optional>
 #include <span>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include "argil/core/no_throw.h"
 #include "argil/engine/field_sampler.h"
 #include "argil/engine/pick.h"
 
 #include "arrays.h"
 #include "clay.h"
+#include "pieces.h"
 
 namespace argil::python {
 namespace {
@@ -27,14 +24,11 @@ constexpr std::size_t kChunk = 4096;
 
 /// Asks for every point by `ask(sampler, n)`, on all cores.
 template <class Ask>
-Result<void> for_points(const Clay& clay, std::size_t count, const Ask& ask) {
-  return no_throw("distances", [&]() -> Result<void> {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kChunk),
-                      [&](const tbb::blocked_range<std::size_t>& part) {
-                        FieldSampler sampler(clay);
-                        for (std::size_t n = part.begin(); n < part.end(); ++n) ask(sampler, n);
-                      });
-    return {};
+Result<void> for_points(const Clay& clay, std::size_t count, const Progress& progress,
+                        const Ask& ask) {
+  return in_pieces("distances", count, kChunk, progress, [&](std::size_t begin, std::size_t end) {
+    FieldSampler sampler(clay);
+    for (std::size_t n = begin; n < end; ++n) ask(sampler, n);
   });
 }
 
@@ -42,8 +36,8 @@ py::array_t<double> distance(SharedClay& self, const Rows& points_mm) {
   const auto points = points_of("points", points_mm);
   check_finite("points", points);
   const auto [array, values] = new_numbers<double>(points.size());
-  self.run([&, out = values](const Clay& clay, const Progress&) {
-    return for_points(clay, points.size(), [&](FieldSampler& sampler, std::size_t n) {
+  self.run([&, out = values](const Clay& clay, const Progress& progress) {
+    return for_points(clay, points.size(), progress, [&](FieldSampler& sampler, std::size_t n) {
       out[n] = sampler.distance_mm(points[n]);
     });
   });
@@ -55,8 +49,8 @@ py::tuple gradient(SharedClay& self, const Rows& points_mm) {
   check_finite("points", points);
   const auto [values, numbers] = new_numbers<double>(points.size());
   const auto [slopes, vectors] = new_points(points.size());
-  self.run([&, out = numbers, slope = vectors](const Clay& clay, const Progress&) {
-    return for_points(clay, points.size(), [&](FieldSampler& sampler, std::size_t n) {
+  self.run([&, out = numbers, slope = vectors](const Clay& clay, const Progress& progress) {
+    return for_points(clay, points.size(), progress, [&](FieldSampler& sampler, std::size_t n) {
       const FieldValue value = sampler.value(points[n]);
       out[n] = value.distance_mm;
       slope[n] = value.gradient;
@@ -69,9 +63,11 @@ py::array_t<double> mask(SharedClay& self, const Rows& points_mm) {
   const auto points = points_of("points", points_mm);
   check_finite("points", points);
   const auto [array, values] = new_numbers<double>(points.size());
-  self.run([&, out = values](const Clay& clay, const Progress&) -> Result<void> {
-    for (std::size_t n = 0; n < points.size(); ++n) out[n] = clay.mask_at(points[n]);
-    return {};
+  self.run([&, out = values](const Clay& clay, const Progress& progress) {
+    return in_pieces("mask", points.size(), kChunk, progress,
+                     [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t n = begin; n < end; ++n) out[n] = clay.mask_at(points[n]);
+                     });
   });
   return array;
 }

@@ -1,59 +1,249 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""argil.set_threads: as many threads as it says, the same bits."""
-import os
-import subprocess
-import sys
+"""Work lets other threads run, waits for its turn, and ends when the user says so."""
+import _thread
+import signal
+import threading
+import time
 
+import numpy as np
 import pytest
 
 import argil
+from conftest import SANITIZED, bumpy_ball
 
-PROGRAM = """
-import os, sys
-import argil
-argil.set_threads(int(sys.argv[1]))
-before = len(os.listdir("/proc/self/task"))
-clay = argil.Clay.ball(20, voxel_mm=0.2)
-clay.offset(1)
-print(len(os.listdir("/proc/self/task")) - before, clay.hash())
-"""
+LATE_CPU_S = 10.0 if SANITIZED else 1.0  # of all threads together, so that other programs' load does not count
 
 
-def started(threads):
-    """How many threads a process of its own started beside its first, and what it made."""
-    ran = subprocess.run([sys.executable, "-c", PROGRAM, str(threads)], capture_output=True, text=True,
-                         timeout=300, check=True)
-    count, made = ran.stdout.split()
-    return int(count), made
+def in_thread(call):
+    """Starts it; what it returned or raised is in the list."""
+    outcome = []
+
+    def work():
+        try:
+            outcome.append(call())
+        except BaseException as error:  # noqa: B902, handed to the test
+            outcome.append(error)
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    return thread, outcome
 
 
-@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
-def test_bounds_what_a_process_starts():
-    alone, made = started(1)
-    free, same = started(0)
-    assert alone == 0
-    assert free >= 1
-    assert made == same
+@pytest.fixture(scope="module")
+def large():
+    return argil.Mesh(*bumpy_ball(400))
 
 
-def test_the_last_number_counts():
-    clay = argil.Clay.ball(10, voxel_mm=0.4)
-    made = set()
-    for threads in (1, 7, 2, 0):
-        argil.set_threads(threads)
-        other = clay.copy()
-        other.offset(1)
-        made.add(other.hash())
-    assert len(made) == 1
+@pytest.fixture(scope="module")
+def huge():
+    """Whose closing alone takes longer than Ctrl-C may."""
+    return argil.Mesh(*bumpy_ball(700))
 
 
-@pytest.mark.parametrize("threads", [-1, 1025])
-def test_refuses_what_is_no_number_of_threads(threads):
-    with pytest.raises(argil.BadInput, match=f"threads is {threads}; give 1 to 1024"):
-        argil.set_threads(threads)
+@pytest.fixture(scope="module")
+def fine(large):
+    return argil.Clay.from_mesh(large, voxel_mm=0.15)
 
 
-@pytest.mark.parametrize("threads", [1.5, "two", None])
-def test_refuses_what_is_no_whole_number(threads):
-    with pytest.raises(TypeError):
-        argil.set_threads(threads)
+def test_one_clay_from_two_threads(ball):
+    """Every stroke is whole, whoever comes first: they touch different places, and each is one step."""
+    places = [[[0, 0, 20]], [[0, 0, -20]]]
+    first, expected = ball.hash(), ball.copy()
+    for _ in range(8):
+        for place in places:
+            expected.stroke(place, tool="inflate", radius_mm=3)
+    threads = [in_thread(lambda place=place: [ball.stroke(place, tool="inflate", radius_mm=3)
+                                              for _ in range(8)]) for place in places]
+    for thread, outcome in threads:
+        thread.join()
+        assert [report["dabs"] for report in outcome[0]] == [1] * 8
+    beside = np.random.default_rng(1).uniform(-4, 4, (1000, 3)) + [[[0, 0, 20]], [[0, 0, -20]]]
+    assert ball.undo_depth == 16
+    assert all(np.array_equal(ball.distance(points), expected.distance(points)) for points in beside)
+    for _ in range(16):
+        assert ball.undo()
+    assert ball.hash() == first
+
+
+def test_two_clays_from_two_threads():
+    alone = argil.Clay.ball(20, voxel_mm=0.4)
+    alone.offset(1)
+    alone.hollow(2)
+
+    def sculpt():
+        clay = argil.Clay.ball(20, voxel_mm=0.4)
+        clay.offset(1)
+        clay.hollow(2)
+        return clay.hash()
+
+    threads = [in_thread(sculpt) for _ in range(3)]
+    for thread, outcome in threads:
+        thread.join()
+        assert outcome == [alone.hash()]
+
+
+def test_many_readers_of_one_clay(ball):
+    points = np.random.default_rng(1).uniform(-22, 22, (5000, 3))
+    expected = ball.distance(points)
+    picked = ball.pick(2 * points, -points).distance_mm
+    threads = [in_thread(lambda: [(ball.distance(points), ball.pick(2 * points, -points).distance_mm)
+                                  for _ in range(5)]) for _ in range(4)]
+    for thread, outcome in threads:
+        thread.join()
+        for distances, rays in outcome[0]:
+            assert np.array_equal(distances, expected) and np.array_equal(rays, picked)
+
+
+def test_other_threads_go_on_meanwhile(fine):
+    """Else a second thread would count only before and after the work."""
+    mesh = fine.surface()
+    window = argil.ForceWindow(fine, (0, 0, 20), 3, margin_mm=3)
+    poses = np.random.default_rng(1).uniform(-2, 2, (100_000, 3)) + [0, 0, 20]
+    points = np.random.default_rng(1).uniform(-22, 22, (300_000, 3))
+    for work in (lambda: fine.copy().offset(0.5), lambda: mesh.check(min_wall_mm=1),
+                 lambda: argil.render(mesh, size=(1500, 1500), samples=8), lambda: window.force(poses),
+                 lambda: fine.distance(points), lambda: fine.pick(2 * points, -points, exact=True),
+                 lambda: argil.lab("sphere", seconds=20)):
+        ticks = 0
+        thread, outcome = in_thread(work)
+        while thread.is_alive():
+            time.sleep(0.001)
+            ticks += 1
+        assert not isinstance(outcome[0], BaseException), outcome
+        assert ticks >= 4
+
+
+WINDOW = []  # exact, which is slow; reading it is not what is interrupted
+LONG = {
+    "import": lambda mesh, clay: argil.Clay.from_mesh(mesh, voxel_mm=0.05),
+    "import unrepaired": lambda mesh, clay: argil.Clay.from_mesh(mesh, voxel_mm=0.05, repair=False),
+    "offset": lambda mesh, clay: clay.offset(1),
+    "hollow": lambda mesh, clay: clay.hollow(2),
+    "union": lambda mesh, clay: clay.union(mesh, position_mm=(3, 2, 1)),
+    "export": lambda mesh, clay: clay.export("interrupted.3mf"),
+    "decimate": lambda mesh, clay: clay.decimate(max_error_mm=0.02),
+    "check": lambda mesh, clay: mesh.check(min_wall_mm=2, min_gap_mm=1),
+    "repair": lambda mesh, clay: mesh.repair(),
+    "render": lambda mesh, clay: argil.render(mesh, size=(4000, 4000), samples=8),
+    "lab": lambda mesh, clay: argil.lab("sphere", seconds=600),
+    "distance": lambda mesh, clay: clay.distance(np.random.default_rng(1).uniform(-22, 22, (6_000_000, 3))),
+    "pick": lambda mesh, clay: clay.pick(np.full((2_000_000, 3), 30.0), np.full((2_000_000, 3), -1.0)),
+    "pick exact": lambda mesh, clay: clay.pick(np.full((2_000_000, 3), 30.0), np.full((2_000_000, 3), -1.0),
+                                               exact=True),
+    "force": lambda mesh, clay: WINDOW[0].force(np.full((50_000, 3), (0, 0, 19.0))),
+}
+
+
+class Interrupt:
+    """Ctrl-C after so much of this process's time; and how much more it took to be heard."""
+
+    def __init__(self, after_cpu_s):
+        self.after_cpu_s = time.process_time() + after_cpu_s
+        self.sent_cpu_s = None
+        self.over = threading.Event()
+        self.thread = threading.Thread(target=self.watch, daemon=True)
+
+    def watch(self):
+        while time.process_time() < self.after_cpu_s:
+            if self.over.wait(0.002):
+                return
+        self.sent_cpu_s = time.process_time()
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    def __enter__(self):
+        self.thread.start()
+        return self
+
+    def __exit__(self, *error):
+        self.heard_cpu_s = time.process_time()
+        self.over.set()
+        self.thread.join()
+
+
+@pytest.mark.parametrize("after_cpu_s", [0.02, 0.25])
+@pytest.mark.parametrize("name", LONG)
+def test_ctrl_c_is_heard(huge, large, fine, name, after_cpu_s, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if name == "force" and not WINDOW:
+        WINDOW.append(argil.ForceWindow(fine, (0, 0, 20), 4, method="fine"))
+    before, depth = fine.hash(), fine.undo_depth
+    fine.pick([[0, 0, 50.0]], [[0, 0, -1.0]])  # what a first pick builds is not what is asked here
+    with Interrupt(after_cpu_s) as ctrl_c:
+        with pytest.raises(KeyboardInterrupt):
+            LONG[name](huge if name == "import" else large, fine)
+    assert ctrl_c.sent_cpu_s is not None
+    assert ctrl_c.heard_cpu_s - ctrl_c.sent_cpu_s < LATE_CPU_S
+    assert fine.hash() == before and fine.undo_depth == depth and not list(tmp_path.iterdir())
+
+
+def test_what_a_handler_raises_is_what_the_caller_gets(fine):
+    class Enough(Exception):
+        pass
+
+    def handler(number, frame):
+        raise Enough
+
+    usual = signal.signal(signal.SIGINT, handler)
+    try:
+        before = fine.hash()
+        with Interrupt(0.05), pytest.raises(Enough):
+            fine.offset(1)
+        assert fine.hash() == before
+    finally:
+        signal.signal(signal.SIGINT, usual)
+
+
+def test_a_handler_that_uses_the_clay_does_not_wait_for_itself(fine):
+    seen = []
+
+    def handler(number, frame):
+        try:
+            fine.hash()
+        except argil.BadInput as error:
+            seen.append(str(error))
+        raise KeyboardInterrupt
+
+    usual = signal.signal(signal.SIGINT, handler)
+    try:
+        with Interrupt(0.05), pytest.raises(KeyboardInterrupt):
+            fine.offset(1)
+    finally:
+        signal.signal(signal.SIGINT, usual)
+    assert len(seen) == 1 and "at work in this very thread" in seen[0]
+
+
+def test_a_handler_that_raises_nothing_stops_nothing(ball):
+    usual = signal.signal(signal.SIGINT, lambda number, frame: None)
+    try:
+        calm = ball.copy()
+        calm.hollow(2)
+        with Interrupt(0.01):
+            ball.hollow(2)
+        assert ball.hash() == calm.hash()
+    finally:
+        signal.signal(signal.SIGINT, usual)
+
+
+def test_waiting_for_another_thread_can_be_interrupted(fine):
+    started = threading.Event()
+
+    def work():
+        started.set()
+        twin = fine.copy()
+        started.twin = twin
+        return twin.offset(1)
+
+    thread, outcome = in_thread(work)
+    while not hasattr(started, "twin"):
+        time.sleep(0.001)
+    time.sleep(0.05)
+    timer = threading.Timer(0.1, _thread.interrupt_main)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            while thread.is_alive():
+                started.twin.hash()
+    finally:
+        timer.join()
+        thread.join()
+    assert outcome == [None]  # the other thread's work was not touched

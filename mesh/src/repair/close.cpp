@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "argil/core/no_throw.h"
+#include "argil/core/pace.h"
 #include "argil/mesh/compact.h"
 #include "argil/mesh/edges.h"
 #include "argil/mesh/intersections.h"
@@ -235,7 +236,8 @@ std::int64_t add_sound(TriangleMesh& mesh, const std::vector<HolePatch>& patches
   return added;
 }
 
-void fill_holes(TriangleMesh& mesh, const MeshParts& parts, bool joins_rims, CloseReport& report) {
+void fill_holes(TriangleMesh& mesh, const MeshParts& parts, bool joins_rims, CloseReport& report,
+                const Pace& pace) {
   const EdgeTable edges(mesh);
   const Rims rims = find_rims(mesh, edges);
   std::vector<HolePatch> patches;
@@ -250,6 +252,7 @@ void fill_holes(TriangleMesh& mesh, const MeshParts& parts, bool joins_rims, Clo
       }
     }
     for (std::size_t n = 0; n < rims.loops.size(); ++n) {
+      pace.at(static_cast<double>(n) / static_cast<double>(rims.loops.size()));
       if (is_joined[n]) continue;
       const RimLoop& loop = rims.loops[n];
       const double part_area = areas[parts.of_triangle[triangle_of(loop[0])]];
@@ -400,15 +403,18 @@ MeshParts joined_where_closed(const EdgeTable& edges, const MeshParts& parts) {
 }
 
 /// Faces every part outward; a closed one inside another follows that one, so that a cavity stays.
-void turn_outward(TriangleMesh& mesh, CloseReport& report) {
+void turn_outward(TriangleMesh& mesh, CloseReport& report, const Pace& pace) {
   const EdgeTable edges(mesh);
+  pace.at(0.3);
   const MeshParts parts = joined_where_closed(edges, mesh_parts(mesh, edges, true));
+  pace.at(0.6);
   std::vector<Shell> shells = shells_of(mesh, edges, parts);
   // The largest first: whatever a part can lie in is judged before it.
   std::stable_sort(shells.begin(), shells.end(), [](const Shell& a, const Shell& b) {
     return std::abs(a.volume) > std::abs(b.volume);
   });
   for (std::size_t i = 0; i < shells.size(); ++i) {
+    pace.at(0.9);
     Shell& shell = shells[i];
     // What is open and flat bounds nothing: the file knows best which side is out.
     const double least = shell.closed ? 0.0 : kFlat * std::pow(shell.area, 1.5);
@@ -458,23 +464,29 @@ void drop_flat(ClosedMesh& closed) {
 
 }  // namespace
 
-Result<ClosedMesh> close_soup(const TriangleMesh& input, bool joins_rims) {
+Result<ClosedMesh> close_soup(const TriangleMesh& input, bool joins_rims, const Pace& pace) {
   ClosedMesh result;
   CloseReport& report = result.report;
   TriangleMesh& mesh = result.mesh;
+  pace.at(0.0);
   mesh = weld(input, report);
+  pace.at(0.2);
   {
     const EdgeTable edges(mesh);
+    pace.at(0.3);
     for (std::size_t e = 0; e < edges.size(); ++e) {
       report.boundary_edges += edges.uses(e).size() == 1 ? 1 : 0;
       report.nonmanifold_edges += edges.uses(e).size() > 2 ? 1 : 0;
     }
     const MeshParts parts = mesh_parts(mesh, edges, true);
+    pace.at(0.4);
     report.turned_triangles = orient_alike(mesh, edges, parts);
     result.given_triangles = mesh.triangles.size();
-    fill_holes(mesh, parts, joins_rims, report);
+    fill_holes(mesh, parts, joins_rims, report, pace.part(0.5, 0.7));
   }
-  turn_outward(mesh, report);
+  pace.at(0.7);
+  turn_outward(mesh, report, pace.part(0.7, 0.9));
+  pace.at(0.9);
   report.closed = !mesh.triangles.empty() && balanced(mesh);
   drop_flat(result);
   if (mesh.triangles.empty()) {
@@ -484,8 +496,9 @@ Result<ClosedMesh> close_soup(const TriangleMesh& input, bool joins_rims) {
   return result;
 }
 
-Result<ClosedMesh> close_mesh(const TriangleMesh& mesh) {
-  return no_throw("closing the mesh", [&] { return close_soup(mesh, false); });
+Result<ClosedMesh> close_mesh(const TriangleMesh& mesh, const Progress& progress) {
+  return no_throw("closing the mesh",
+                  [&] { return close_soup(mesh, false, Pace(progress, "close")); });
 }
 
 }  // namespace argil::mesh

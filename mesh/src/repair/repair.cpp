@@ -74,12 +74,15 @@ void Mend::join_seams() {
   const std::size_t given = mesh_.positions.size();
   mesh_ = welded(mesh_);  // a soup of loose triangles would be all rims
   report_.joined_vertices += static_cast<std::int64_t>(given - mesh_.positions.size());
+  pace_.at(0.0);
   report_.interior_faces += drop_interior_faces(mesh_);
   report_.closing.dropped_triangles += drop_repeated(mesh_);
   const RimsJoined joined = join_rims_as_needed(mesh_, near, kFarRims * size_);
+  pace_.at(0.0);
   near = std::max(near, joined.near_mm);
   report_.joined_vertices += joined.vertices > 0 ? joined.vertices : join_rims(mesh_, near);
   report_.closing.dropped_triangles += drop_repeated(mesh_);
+  pace_.at(0.0);
   split_at_junctions(near);
   report_.dropped_fins = drop_fins(mesh_);
   report_.interior_faces += drop_inner_walls(mesh_, pace_.part(0.0, 0.1));
@@ -122,7 +125,7 @@ bool Mend::cone_the_rest() {
 
 /// The first closing is the one that is reported; a later one closes what was opened meanwhile.
 Result<void> Mend::close() {
-  auto closed = close_soup(mesh_, true);
+  auto closed = close_soup(mesh_, true, pace_.part(0.1, 0.1));
   if (!closed) return closed.error();
   if (report_.closing.parts == 0) {
     closed.value().report.dropped_triangles += report_.closing.dropped_triangles;

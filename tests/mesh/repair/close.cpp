@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <CGAL/version.h>
 #include <gtest/gtest.h>
@@ -50,6 +51,21 @@ TEST(CloseMesh, LeavesAClosedMeshAsItIs) {
                 result.report.holes_closed + result.report.holes_left + result.report.parts_flipped,
             0);
   EXPECT_EQ(signed_volume(result.mesh), signed_volume(mesh));
+}
+
+TEST(CloseMesh, HearsAStopAtEveryStage) {
+  const TriangleMesh mesh = bowl(0.5);
+  int told = 0;
+  ASSERT_TRUE(close_mesh(mesh, [&](std::string_view, double) { return ++told > 0; }));
+  EXPECT_GE(told, 9);
+  for (int stop_at = 1; stop_at <= told; ++stop_at) {
+    int heard = 0;
+    const auto stopped =
+        close_mesh(mesh, [&](std::string_view, double) { return ++heard < stop_at; });
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
+    EXPECT_EQ(heard, stop_at);
+  }
 }
 
 TEST(CloseMesh, WeldsASoup) {

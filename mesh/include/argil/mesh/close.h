@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/core/triangle_mesh.h"
 
@@ -40,13 +41,14 @@ struct ClosedMesh {
 ///
 /// Shapes       any triangle soup with finite positions; normals are left out.
 /// Returns      a mesh without triangles of no area and without vertices that none of them names.
-/// Errors       bad_input when nothing remains (no triangles, all degenerate); memory.
+/// Errors       bad_input when nothing remains (no triangles, all degenerate); memory;
+///              interrupted when progress asked: heard between stages and between holes.
 /// Determinism  same bits every time; nothing runs at once.
 /// Threads      any thread.
 /// Cost         n log n in the triangles; a hole goes with the cube of its rim up to 400 edges,
 ///              beyond that with a smaller search (bench_closing).
 /// Source       holes: P. Liepa, "Filling holes in meshes", 2003, as CGAL has it: triangulated,
 ///              refined and faired, so that the patch continues the curvature of its rim.
-Result<ClosedMesh> close_mesh(const TriangleMesh& mesh);
+Result<ClosedMesh> close_mesh(const TriangleMesh& mesh, const Progress& progress = {});
 
 }  // namespace argil::mesh
