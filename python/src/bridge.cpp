@@ -3,7 +3,7 @@
 // socket.
 #include "bridge.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -167,16 +168,21 @@ void add_bridge(py::module_& module) {
       .def(py::init(&make_bridge), py::arg("law"), py::arg("stiffness_n_per_m"),
            py::arg("damping_n_s_per_m"), py::arg("scale"), py::arg("device"), py::arg("hand"),
            py::arg("motion"))
-      .def("put",
-           [](LocalBridge& self, const std::string& datagram) {
-             return self.link().put(std::as_bytes(std::span(datagram.data(), datagram.size())));
-           })
+      .def(
+          "put",
+          [](LocalBridge& self, const py::bytes& datagram) {
+            const auto bytes = static_cast<std::string_view>(datagram);
+            return self.link().put(std::as_bytes(std::span(bytes.data(), bytes.size())));
+          },
+          py::arg("datagram"))
       .def("take", &take)
-      .def("wait",
-           [](LocalBridge& self, double seconds) {
-             const py::gil_scoped_release released;
-             return self.link().wait_to_take(std::min(std::max(seconds, 0.0), 3600.0));
-           })
+      .def(
+          "wait",
+          [](LocalBridge& self, double seconds) {
+            const py::gil_scoped_release released;
+            return self.link().wait_to_take(std::min(std::max(seconds, 0.0), 3600.0));
+          },
+          py::arg("seconds"))
       .def("stop", &LocalBridge::stop);
 }
 

@@ -60,7 +60,10 @@ def damage_text(random, text):
             del lines[at]
             lines = lines or [""]
         elif how == 5:
-            lines[at:at] = [lines[random.randrange(len(lines))]] * random.choice((1, 1, 1, 1000))
+            line = lines[random.randrange(len(lines))]
+            # A thousand operations on all of the clay are no damage but an evening's work.
+            most = 3 if '"operation"' in line else 1000
+            lines[at:at] = [line] * random.choice((1, 1, 1, most))
         elif how == 6:
             other = random.randrange(len(lines))
             lines[at], lines[other] = lines[other], lines[at]
