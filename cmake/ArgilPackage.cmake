@@ -88,8 +88,8 @@ Argil turns a scan or a ball of clay into a stack of sparse level sets, fine
 only where there is detail, sculpts it, tells what a hand that holds the tool
 feels, and writes closed meshes for 3D printers.
 
-These are the static libraries core, haptics, engine, mesh and io with their headers,
-for CMake's find_package(Argil) and for pkg-config.")
+These are the static libraries core, haptics, engine, mesh and io with their
+headers, for CMake's find_package(Argil) and for pkg-config.")
 
 # The extension is of one version of Python alone; what it links, dpkg-shlibdeps sees.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-argil)
