@@ -12,8 +12,10 @@ macro(argil_find_python)
   argil_find_package("Python's headers" python3-dev Python 3.11 COMPONENTS Interpreter Development.Module)
   if(Python_FOUND)
     set(PYBIND11_FINDPYTHON ON)
-    argil_find_package("pybind11 2.10" pybind11-dev pybind11 2.10 CONFIG)
+  else()  # it would look for one itself, and stop with messages of its own
+    set(PYBIND11_NOPYTHON ON)
   endif()
+  argil_find_package("pybind11 2.10" pybind11-dev pybind11 2.10 CONFIG)
 endmacro()
 
 # What tests use besides; lib3mf, which is the 3MF consortium's own, is the other side of our 3MF.
