@@ -112,8 +112,9 @@ function(argil_install_program)
   list(REMOVE_ITEM modules ${blender}/argil_addon.py ${blender}/argil_session.py)
   configure_file(${package}/blender_manifest.toml.in
     ${PROJECT_BINARY_DIR}/package/blender_manifest.toml @ONLY)
-  foreach(place IN ITEMS scripts/addons extensions/system)
-    set(addon ${CMAKE_INSTALL_DATADIR}/blender/${place}/argil)
+  # Before 4.2 an add-on is a module of its folder's name: `argil` is the package of Python.
+  foreach(place IN ITEMS scripts/addons/argil_blender extensions/system/argil)
+    set(addon ${CMAKE_INSTALL_DATADIR}/blender/${place})
     install(FILES ${modules} DESTINATION ${addon} COMPONENT runtime)
     install(FILES ${blender}/argil_addon.py DESTINATION ${addon} RENAME __init__.py
       COMPONENT runtime)

@@ -66,7 +66,7 @@ has_all_files() {
   for file in /usr/share/applications/argil.desktop /usr/share/mime/packages/argil.xml \
     /usr/share/icons/hicolor/scalable/apps/argil.svg /usr/lib/udev/rules.d/70-argil-falcon.rules \
     /usr/share/bash-completion/completions/argil /usr/share/zsh/vendor-completions/_argil \
-    /usr/share/blender/scripts/addons/argil/__init__.py /usr/share/argil/printers/resin.json \
+    /usr/share/blender/scripts/addons/argil_blender/__init__.py /usr/share/argil/printers/resin.json \
     /usr/share/doc/argil/copyright /usr/share/doc/argil/changelog.Debian.gz \
     /usr/share/doc/argil/examples/owl.strokes.jsonl /usr/share/doc/argil/examples/pebble.ply; do
     grep -qxF "$file" <<<"$listed" || { echo "$file is missing"; return 1; }

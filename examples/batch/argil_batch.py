@@ -6,7 +6,7 @@ python3-distributed): a cluster on this machine, or one whose scheduler is named
 both folders under the same paths.
 
 Run again, it does only what is not done: new and changed files, and all of them where the options
-changed. RESULTS holds NAME_ENDING.3mf and, in `records`, what was found and a picture of each; report.csv
+changed. RESULTS holds NAME.ENDING.3mf and, in `records`, what was found and a picture of each; report.csv
 and report.html are made of these. Exit status: 0 all is done; 1 some files failed, the report says why;
 130 Ctrl-C, with what was done until then in the report.
 """
@@ -60,7 +60,7 @@ def done_before(file, out, options):
         if about.st_mtime_ns != then["modified_ns"] and identity(file)["hash"] != then["hash"]:
             return None
         return record if not record["output"] or (out / record["output"]).exists() else None
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
@@ -98,11 +98,11 @@ def treat(file, out, options, threads):
     if done:  # by a worker that was killed before it could say so
         return done
     argil.set_threads(threads)
-    record = {"file": file.name, "options": options, "input": identity(file), "output": "",
-              "status": "failed"}
-    target = out / f"{file.stem}_{file.suffix[1:].lower()}.3mf"
+    record = {"file": file.name, "options": options, "input": {}, "output": "", "status": "failed"}
+    target = out / f"{file.name}.3mf"  # two files that differ in their ending alone are two prints
     began = time.monotonic()
     try:
+        record["input"] = identity(file)
         record.update(make(file, target, record_of(file, out).with_suffix(".png"), options))
         record["output"] = target.name
     except Exception as error:  # whatever is wrong with one file, the others go on
@@ -128,13 +128,16 @@ def run(client, files, out, options, threads):
     for _ in range(max(1, len(client.ncores()))):
         hand_out()
     for future in running:
-        file, error = names.pop(future.key), future.exception()
+        file, error, known = names.pop(future.key), future.exception(), {}
         if error is None:
             record = future.result()
         else:  # KilledWorker: Dask tried DEATHS times
-            record = {"file": file.name, "options": options, "input": identity(file), "output": "",
+            died = isinstance(error, distributed.KilledWorker)
+            with contextlib.suppress(OSError):
+                known = identity(file)
+            record = {"file": file.name, "options": options, "input": known, "output": "",
                       "status": "failed", "message": "its worker died each time: out of memory or a "
-                      f"fault of a program ({type(error).__name__})"}
+                      f"fault of a program ({type(error).__name__})" if died else repr(error)}
             write_record(file, out, record)
         yield file, record
         hand_out()
@@ -205,7 +208,8 @@ def main():
     options = {key: getattr(given, key) for key in ("unit", "wall_mm", "drain_mm", "voxel_mm",
                                                     "resolution", "max_error_mm", "allow_loss")}
     options["printer"] = str(given.printer.resolve()) if given.printer else ""
-    files = sorted(f for f in given.folder.resolve().iterdir() if f.suffix.lower() in ENDINGS)
+    files = sorted(f for f in given.folder.resolve().iterdir()
+                   if f.suffix.lower() in ENDINGS and not f.is_dir())
     records = kept(files, out, options, given.again)
     todo = [file for file in files if file not in records]
     print(f"{len(files)} meshes, {len(records)} of them done before", flush=True)

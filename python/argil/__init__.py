@@ -12,8 +12,9 @@ line and stroke scripts of Argil have, and the same calls give the same bits.
     >>> clay.export("piece.3mf")["printable"]
     True
 
-Work of any length lets other threads run and is ended by Ctrl-C, which leaves the clay as it was. A
-clay may be used from several threads: they wait for each other.
+Long work lets other threads run, and Ctrl-C ends it and leaves the clay as it was; reading a mesh, making
+a ball or a block, and copies come to their end first. A clay may be used from several threads: they
+wait for each other.
 """
 from ._native import (BadInput, DeviceError, DiskError, Error, InternalError, OutOfMemory,
                       __version__)

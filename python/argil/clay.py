@@ -37,7 +37,8 @@ class Clay:
     """A sculpture: nested level sets, level 0 the finest, distances negative inside.
 
     Made by `ball`, `block`, `from_mesh`, `from_script` or `load`. Several threads may use one; they
-    wait for each other. A call that fails or is interrupted leaves it as it was.
+    wait for each other. A call that fails or is interrupted leaves it as it was, but for
+    `apply_script`, which keeps the steps before.
     """
 
     __slots__ = ("_clay",)
@@ -350,7 +351,7 @@ class Clay:
         origins_mm, directions : array_like, (n, 3)
             Directions of any length but zero.
         exact : bool
-            On the field, to 1e-6 voxel, instead of on the surface's triangles: three to five times
+            On the field, to 1e-6 voxel, instead of on the surface's triangles: six to ten times
             the time.
         """
         return Picks(*self._clay.pick(rows("origins", origins_mm), rows("directions", directions),

@@ -51,6 +51,9 @@ class LocalClient(bridge.Client):
                  stiffness_n_per_m: float = 1500.0, damping_n_s_per_m: float = 0.0,
                  scale: float = 1.0, device: str = "sim", hand: str = "arm",
                  motion: Optional[ArrayLike] = None) -> None:
+        if not bridge.LEAST_RATE_HZ <= rate_hz <= bridge.MOST_RATE_HZ:  # before a device is opened
+            raise _native.BadInput(f"a rate of {rate_hz:g} Hz is not within {bridge.LEAST_RATE_HZ:g} to "
+                                   f"{bridge.MOST_RATE_HZ:g} Hz")
         self._local = _native.LocalBridge(law, stiffness_n_per_m, damping_n_s_per_m, scale, device,
                                           hand, rows("motion", USUAL_MOTION if motion is None
                                                      else motion))
@@ -77,3 +80,4 @@ class LocalClient(bridge.Client):
 
     def _close_transport(self) -> None:
         self.report: Dict[str, Any] = self._local.stop()
+        self.has_ended = True

@@ -62,10 +62,12 @@ class Mesh:
         pair of them."""
         if isinstance(other, Mesh):
             return other
-        if isinstance(other, tuple) and len(other) == 2:
+        if isinstance(other, (tuple, list)) and len(other) == 2:
             return cls(other[0], other[1])
-        if isinstance(other, MeshLike):
-            return cls(other.vertices, other.faces)
+        # Not isinstance: from Python 3.12 on that does not see what an object passes on to another.
+        vertices, faces = getattr(other, "vertices", None), getattr(other, "faces", None)
+        if vertices is not None and faces is not None:
+            return cls(vertices, faces)
         raise _native.BadInput(f"{type(other).__name__} is no mesh; give one with vertices and faces, "
                                "or a pair of arrays")
 
@@ -176,6 +178,12 @@ class Mesh:
     def _repr_png_(self) -> bytes:
         from .picture import png, render
         return png(render(self))
+
+    def __copy__(self) -> Mesh:
+        return self  # it never changes
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> Mesh:
+        return self
 
     def __reduce__(self) -> Tuple[Any, ...]:
         return Mesh, (np.array(self.vertices), np.array(self.faces))

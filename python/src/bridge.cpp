@@ -155,6 +155,22 @@ std::unique_ptr<LocalBridge> make_bridge(const std::string& law, double stiffnes
   return std::make_unique<LocalBridge>(std::move(felt), terms);
 }
 
+/// In slices, between which Ctrl-C is heard.
+bool wait_for_bridge(LocalBridge& self, double seconds) {
+  if (!(seconds <= 3600.0)) raise_bad_input("seconds must be a number up to 3600");
+  SignalWatch watch;
+  bool has_come = false;
+  {
+    constexpr double kSliceS = 0.06;
+    const py::gil_scoped_release released;
+    for (double left = seconds; !has_come && left > 0.0 && watch.goes_on(); left -= kSliceS) {
+      has_come = self.link().wait_to_take(std::min(left, kSliceS));
+    }
+  }
+  watch.rethrow();
+  return has_come;
+}
+
 py::object take(LocalBridge& self) {
   const auto datagram = self.link().take();
   if (!datagram) return py::none();
@@ -176,13 +192,7 @@ void add_bridge(py::module_& module) {
           },
           py::arg("datagram"))
       .def("take", &take)
-      .def(
-          "wait",
-          [](LocalBridge& self, double seconds) {
-            const py::gil_scoped_release released;
-            return self.link().wait_to_take(std::min(std::max(seconds, 0.0), 3600.0));
-          },
-          py::arg("seconds"))
+      .def("wait", &wait_for_bridge, py::arg("seconds"))
       .def("stop", &LocalBridge::stop);
 }
 

@@ -157,12 +157,12 @@ def test_what_is_done_is_not_done_again(batch):
     # Touched is not changed; changed is, and so is what lost its output.
     os.utime(folder / "pebble000.stl")
     (folder / "nothing.stl").write_bytes((folder / "pebble000.stl").read_bytes())
-    (out / "pebble001_ply.3mf").unlink()
+    (out / "pebble001.ply.3mf").unlink()
     again = subprocess.run(command(folder, out), capture_output=True, text=True, timeout=120)
     assert again.returncode == 1 and f"{MESHES + 1} of them done before" in again.stdout, again.stdout
     rows = report(out)
     assert rows["nothing.stl"]["status"] == "printable"
-    assert (out / "pebble001_ply.3mf").exists()
+    assert (out / "pebble001.ply.3mf").exists()
     same = {file for file, stamp in stamps(out).items() if before.get(file) == stamp}
     assert len(before) - len(same) == 4  # two records, one picture and the print that was lost
 

@@ -37,7 +37,8 @@ inline constexpr std::uint64_t kMost3mfText = 0xffffffff;
 /// Whether the text of the model is less than `most` bytes.
 ///
 /// Errors   bad_input naming what it takes; interrupted.
-/// Cost     none up to 24 million vertices; then the text is made once more than for the file.
+/// Cost     none up to 22 million vertices; beyond, the text is made once more each time this is
+/// asked.
 Result<void> check_3mf_size(const ThreemfModel& model, const Progress& progress,
                             std::uint64_t most = kMost3mfText);
 

@@ -233,11 +233,11 @@ Result<void> App::frame() {
   ui_.measures.slice = ui_.measures.seen ? &*slice_ : nullptr;
   tick_haptics(now);
 
-  const auto felt = this->felt();
-  if (felt && !haptics_->is_running()) {
-    most_shown_n_ = std::max(most_shown_n_, length(felt->force_n));
+  const auto felt_now = felt();
+  if (felt_now && !haptics_->is_running()) {
+    most_shown_n_ = std::max(most_shown_n_, length(felt_now->force_n));
   }
-  shown_force_ = steadied(felt, shown_force_, ui_.camera.pixel_mm_at(ui_.camera.target_mm()),
+  shown_force_ = steadied(felt_now, shown_force_, ui_.camera.pixel_mm_at(ui_.camera.target_mm()),
                           arrow_mm_per_n());
   if (auto turned = turn_table(); !turned) return turned;
   note_last_frame();

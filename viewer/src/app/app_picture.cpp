@@ -184,10 +184,10 @@ std::optional<SeenHalf> App::seen_half() const {
   return SeenHalf{kept, dot(kept, slice_->corner_mm)};
 }
 
-/// The force on the tool, and where it is felt.
 /// An arrow of 3 N is 8 % of the distance to the target long.
 double App::arrow_mm_per_n() const { return 0.08 * ui_.camera.distance_mm() / 3.0; }
 
+/// The force on the tool, and where it is felt.
 void App::add_force(Picture& picture) const {
   const auto& seen = shown_force_;
   if (!seen) return;

@@ -51,8 +51,9 @@ void SceneFeed::forget_gone(const Sculpture& sculpture) {
       at->second.name = sculpture.look(found->second).name;
       ++at;
     } else {
-      gone_.push_back(at->second.key);
+      // Last what cannot be done twice, should there be no memory for the other.
       former_[at->first] = {at->second.key, at->second.name};
+      gone_.push_back(at->second.key);
       at = followed_.erase(at);
     }
   }
