@@ -62,7 +62,7 @@ class Mesh:
         pair of them."""
         if isinstance(other, Mesh):
             return other
-        if isinstance(other, (tuple, list)) and len(other) == 2:
+        if isinstance(other, tuple) and len(other) == 2:
             return cls(other[0], other[1])
         # Not isinstance: from Python 3.12 on that does not see what an object passes on to another.
         vertices, faces = getattr(other, "vertices", None), getattr(other, "faces", None)

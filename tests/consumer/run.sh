@@ -28,7 +28,7 @@ for file in bin/argil share/doc/argil/LICENSE share/doc/argil/README.md \
   share/argil/falcon/martin-hillier.txt share/applications/argil.desktop \
   share/icons/hicolor/scalable/apps/argil.svg share/mime/packages/argil.xml \
   share/man/man1/argil-import.1.gz share/bash-completion/completions/argil \
-  share/zsh/site-functions/_argil share/blender/scripts/addons/argil/__init__.py; do
+  share/zsh/site-functions/_argil share/blender/scripts/addons/argil_blender/__init__.py; do
   [ -f "$scratch/prefix/$file" ] || stop "$file was not installed"
 done
 [ -z "$(find "$scratch/prefix/include" -name level_stack.h)" ] || stop "a private header was installed"
