@@ -11,6 +11,7 @@
 #include "argil/haptics/force/tool_force.h"
 
 #include "commands.h"
+#include "common/felt_window.h"
 #include "common/machine.h"
 #include "common/options.h"
 #include "common/output.h"
@@ -40,43 +41,14 @@ struct ForceOptions {
 
 /// What a query is evaluated with, and why.
 struct Plan {
-  MethodChoice method = MethodChoice::lod;
+  FeltMethod method = FeltMethod::lod;
   haptics::Lattice lattice;
   FieldWindow window;
   std::string why;
 };
 
-double smallest(const Vec3& v) { return std::min({v.x, v.y, v.z}); }
-
-/// The query's position and depth on the lattice that the method wants.
-WindowRequest request_for(const ForceOptions& options, const haptics::Lattice& lattice) {
-  constexpr double kMargin = 0.0;  // one query: the tool does not move on
-  return {options.tool.position_mm, lattice.voxel_mm,
-          haptics::window_reach_mm(options.tool, lattice, kMargin),
-          haptics::window_depth_mm(options.tool, options.material, lattice)};
-}
-
-/// A tool much larger than the clay would need a window that no longer pays, and one so long or
-/// flat that no lattice within the budget resolves it would be felt wrong: refused by name.
-Result<void> check_tool(const ForceOptions& options, const Clay& clay,
-                        const haptics::Lattice& lattice) {
-  constexpr double kMostVoxels = 64.0;
-  constexpr double kLeastAcross = 4.0;
-  const double most = kMostVoxels * clay.level_stats().back().voxel_mm;
-  const double radius = largest_radius_mm(options.tool);
-  if (radius > most) {
-    return Error{ErrorKind::bad_input, "--tool has a radius of " + number(radius) +
-                                           " mm; for a clay of this size at most " + number(most)};
-  }
-  if (lattice.across < kLeastAcross) {
-    return Error{ErrorKind::bad_input,
-                 "--tool is too long or flat: its smallest radius of " +
-                     number(smallest(options.tool.radii_mm)) + " mm would get " +
-                     number(lattice.across) +
-                     " samples across; use --method fine or radii nearer to each other"};
-  }
-  return {};
-}
+constexpr FeltWords kWords{"--tool", "--method fine"};
+constexpr double kMargin = 0.0;  // one query: the tool does not move on
 
 std::string because_point(const ForceOptions& options, double phi_mm) {
   return "the tool is so small against the skin of " + number(options.material.skin_mm) +
@@ -91,62 +63,27 @@ std::string because_lattice(const haptics::Lattice& lattice, const FieldWindowVi
          number(lattice.voxel_mm) + " mm, read from level " + std::to_string(view.level);
 }
 
-/// The finest level around the tool's centre: what the point force reads.
-Result<FieldWindow> window_at_centre(const ForceOptions& options, const Clay& clay) {
-  constexpr double kBorderVoxels = 2.0;  // for the gradient
-  const double voxel = clay.options().voxel_mm;
-  const double radius = largest_radius_mm(options.tool);
-  return read_window(
-      clay,
-      {options.tool.position_mm, voxel, haptics::kKernelSupport * radius + kBorderVoxels * voxel,
-       2.0 * radius + options.material.skin_mm},
-      Extension::layers);
-}
-
-Result<Plan> plan_point(const ForceOptions& options, const Clay& clay) {
-  auto window = window_at_centre(options, clay);
+Result<Plan> plan_for(const ForceOptions& options, const Clay& clay, FeltMethod method) {
+  auto window = felt_window(clay, options.tool, options.material, method, kMargin, kWords);
   if (!window) return window.error();
   Plan plan;
-  plan.method = MethodChoice::point;
+  plan.method = method;
+  plan.lattice = felt_lattice(clay, options.tool, method);
   plan.window = std::move(window).value();
-  plan.lattice = {clay.options().voxel_mm, 1.0, 0.0};
-  plan.why = "asked for";
-  return plan;
-}
-
-/// Every finest voxel under the tool, with the exact distance to the surface.
-Result<Plan> plan_fine(const ForceOptions& options, const Clay& clay) {
-  Plan plan;
-  plan.method = MethodChoice::fine;
-  plan.lattice.voxel_mm = clay.options().voxel_mm;
-  plan.lattice.across = 2.0 * smallest(options.tool.radii_mm) / plan.lattice.voxel_mm;
-  auto window = read_window(clay, request_for(options, plan.lattice), Extension::exact);
-  if (!window) return window.error();
-  plan.window = std::move(window).value();
-  plan.why = "asked for";
-  return plan;
-}
-
-Result<Plan> plan_lod(const ForceOptions& options, const Clay& clay) {
-  Plan plan;
-  plan.lattice = haptics::choose_lattice(options.tool);
-  if (auto fits = check_tool(options, clay, plan.lattice); !fits) return fits.error();
-  auto window = read_window(clay, request_for(options, plan.lattice), Extension::layers);
-  if (!window) return window.error();
-  plan.window = std::move(window).value();
-  plan.why = because_lattice(plan.lattice, plan.window.view);
+  plan.why =
+      method == FeltMethod::lod ? because_lattice(plan.lattice, plan.window.view) : "asked for";
   return plan;
 }
 
 /// What the scene needs: the point force where it does, else the lattice.
 Result<Plan> make_plan(const ForceOptions& options, const Clay& clay) {
   const auto method = static_cast<MethodChoice>(options.method);
-  if (method == MethodChoice::fine) return plan_fine(options, clay);
-  if (method == MethodChoice::point) return plan_point(options, clay);
+  if (method == MethodChoice::fine) return plan_for(options, clay, FeltMethod::fine);
+  if (method == MethodChoice::point) return plan_for(options, clay, FeltMethod::point);
   // A tool larger than the skin is never judged by its centre alone.
   if (method == MethodChoice::automatic &&
       largest_radius_mm(options.tool) <= options.material.skin_mm) {
-    auto point = plan_point(options, clay);
+    auto point = plan_for(options, clay, FeltMethod::point);
     if (!point) return point.error();
     const FieldWindowView& view = point.value().window.view;
     if (haptics::point_is_enough(view, options.tool, options.material)) {
@@ -155,7 +92,7 @@ Result<Plan> make_plan(const ForceOptions& options, const Clay& clay) {
       return point;
     }
   }
-  return plan_lod(options, clay);
+  return plan_for(options, clay, FeltMethod::lod);
 }
 
 haptics::ForceLaw law_of(const ForceOptions& options) {
@@ -164,8 +101,7 @@ haptics::ForceLaw law_of(const ForceOptions& options) {
 
 /// The query, repeated; `cpu_us` gets the time of each.
 ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<double>& cpu_us) {
-  assert(options.repeat >= 0 && plan.method != MethodChoice::automatic);
-  assert(plan.lattice.voxel_mm > 0.0);
+  assert(options.repeat >= 0 && plan.lattice.voxel_mm > 0.0);
   const LatticeForce lattice(options.tool, options.material, law_of(options),
                              plan.lattice.voxel_mm);
   ForceResult result;
@@ -173,15 +109,14 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
     // The query alone: reading the window is not part of a servo's tick.
     const double before = thread_cpu_us();
     switch (plan.method) {
-      case MethodChoice::point:
+      case FeltMethod::point:
         result = haptics::point_force(plan.window.view, options.tool, options.material);
         break;
-      case MethodChoice::fine:
+      case FeltMethod::fine:
         result = haptics::volume_force(plan.window.view, options.tool, options.material,
                                        law_of(options));
         break;
-      case MethodChoice::automatic:  // a plan has one of the others
-      case MethodChoice::lod:
+      case FeltMethod::lod:
         result = lattice.evaluate(plan.window.view, options.tool);
         break;
     }
@@ -190,14 +125,13 @@ ForceResult evaluate(const ForceOptions& options, const Plan& plan, std::vector<
   return result;
 }
 
-const char* method_name(MethodChoice method) {
+const char* method_name(FeltMethod method) {
   switch (method) {
-    case MethodChoice::point:
+    case FeltMethod::point:
       return "point";
-    case MethodChoice::fine:
+    case FeltMethod::fine:
       return "fine";
-    case MethodChoice::automatic:
-    case MethodChoice::lod:
+    case FeltMethod::lod:
       break;
   }
   return "lod";
@@ -216,7 +150,7 @@ Json result_json(const ForceResult& result, const Plan& plan, const std::vector<
   json["contact_nmm"] = to_json(result.contact_nmm);
   json["viscosity_nmm"] = to_json(result.viscosity_nmm);
   json["energy_nmm"] = result.energy_nmm;
-  json["error_n"] = plan.method == MethodChoice::lod ? Json(result.error_n) : Json(nullptr);
+  json["error_n"] = plan.method == FeltMethod::lod ? Json(result.error_n) : Json(nullptr);
   json["outside_window"] = result.outside_window;
   json["method"] = method_name(plan.method);
   json["why"] = plan.why;
@@ -232,7 +166,7 @@ std::string force_text(const ForceOptions& options, const ForceResult& result, c
                      std::to_string(plan.window.view.level) + ", voxel " +
                      number(plan.window.view.voxel_mm) + " mm, " + std::to_string(result.samples) +
                      " samples\n";
-  if (plan.method == MethodChoice::lod) text += "error at most " + number(result.error_n) + " N\n";
+  if (plan.method == FeltMethod::lod) text += "error at most " + number(result.error_n) + " N\n";
   if (options.explain) {
     text += std::string("method ") + method_name(plan.method) + ": " + plan.why + "\n";
   }

@@ -23,6 +23,7 @@
 #include "argil/haptics/simulation/sim_falcon.h"
 
 #include "arrays.h"
+#include "choice.h"
 #include "common/falcon_options.h"
 #include "common/hand_option.h"
 #include "memory_link.h"
@@ -34,19 +35,19 @@ namespace {
 constexpr double kTickS = 1e-3;
 
 haptics::BridgeLaw law_of(const std::string& law) {
+  Words<haptics::BridgeLaw> known;
   for (const auto one :
        {haptics::BridgeLaw::direct, haptics::BridgeLaw::indirect, haptics::BridgeLaw::plane}) {
-    if (law == haptics::bridge_law_name(one)) return one;
+    known.emplace_back(haptics::bridge_law_name(one), one);
   }
-  raise_bad_input("law is '" + law + "'; must be direct, indirect or plane");
+  return choice_of<haptics::BridgeLaw>("law", law, known);
 }
 
 haptics::Hand hand_of(const std::string& hand) {
-  constexpr const char* kNames[] = {"push", "light", "arm", "firm"};
-  for (std::size_t n = 0; n < cli::kHands.size(); ++n) {
-    if (hand == kNames[n]) return cli::kHands[n];
-  }
-  raise_bad_input("hand is '" + hand + "'; must be push, light, arm or firm");
+  Words<haptics::Hand> known;
+  for (const haptics::Hand one : cli::kHands)
+    known.emplace_back(haptics::hand_model(one).name, one);
+  return choice_of<haptics::Hand>("hand", hand, known);
 }
 
 /// Rows of t, x, y, z and how hard the hand presses along -y; times ascend.

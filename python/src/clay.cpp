@@ -25,6 +25,7 @@
 #include "argil/mesh/close.h"
 
 #include "arrays.h"
+#include "choice.h"
 #include "common/output.h"
 #include "common/reports.h"
 #include "convert.h"
@@ -227,19 +228,15 @@ ClayHolder start_of_script(const std::filesystem::path& file) {
   }));
 }
 
-CombineKind kind_of(const std::string& kind) {
-  if (kind == "union") return CombineKind::unite;
-  if (kind == "difference") return CombineKind::subtract;
-  if (kind == "intersection") return CombineKind::intersect;
-  raise_bad_input("kind is '" + kind + "'; must be union, difference or intersection");
-}
-
 /// `other` as it is now: combining a clay with itself works, and nothing waits for two clays.
 void combine(SharedClay& self, const std::string& kind,
              const std::variant<ClayHolder, std::shared_ptr<SharedMesh>>& other,
              py::handle position_mm, const std::array<double, 4>& q, bool repairs) {
   Combine with;
-  with.kind = kind_of(kind);
+  with.kind = choice_of<CombineKind>("kind", kind,
+                                     {{"union", CombineKind::unite},
+                                      {"difference", CombineKind::subtract},
+                                      {"intersection", CombineKind::intersect}});
   with.placement = {vec3_of("position_mm", position_mm), {q[0], q[1], q[2], q[3]}};
   if (const auto* clay = std::get_if<ClayHolder>(&other)) {
     with.clay = std::make_shared<const Clay>((*clay)->run(

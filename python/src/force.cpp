@@ -19,24 +19,25 @@
 #include "argil/haptics/force/tool_force.h"
 
 #include "arrays.h"
+#include "choice.h"
 #include "clay.h"
+#include "common/felt_window.h"
 #include "convert.h"
 #include "pieces.h"
 
 namespace argil::python {
 namespace {
 
+using cli::FeltMethod;
 using haptics::ForceResult;
 using haptics::ForceTool;
-
-enum class Method { lod, fine, point };
 
 /// What is felt, with what, and how it is summed.
 struct ForceSetup {
   ForceTool tool;
   haptics::ForceMaterial material;
   haptics::ForceLaw law = haptics::ForceLaw::energy;
-  Method method = Method::lod;
+  FeltMethod method = FeltMethod::lod;
 };
 
 /// A window with what sums the force on it; never changes.
@@ -48,18 +49,18 @@ class ForceWindow {
         sum_(setup.tool, setup.material, setup.law, window_.view.voxel_mm) {}
 
   const FieldWindowView& view() const noexcept { return window_.view; }
-  bool is_exact() const noexcept { return setup_.method == Method::fine; }
+  bool is_exact() const noexcept { return setup_.method == FeltMethod::fine; }
 
   /// `pose`: position, orientation and velocities; shape and radii are the window's.
   ForceResult at(ForceTool pose) const noexcept {
     pose.shape = setup_.tool.shape;
     pose.radii_mm = setup_.tool.radii_mm;
     switch (setup_.method) {
-      case Method::point:
+      case FeltMethod::point:
         return haptics::point_force(window_.view, pose, setup_.material);
-      case Method::fine:
+      case FeltMethod::fine:
         return haptics::volume_force(window_.view, pose, setup_.material, setup_.law);
-      case Method::lod:
+      case FeltMethod::lod:
         break;
     }
     return sum_.evaluate(window_.view, pose);
@@ -70,22 +71,6 @@ class ForceWindow {
   FieldWindow window_;
   haptics::LatticeForce sum_;
 };
-
-template <class Choice>
-Choice choice_of(const char* name, const std::string& value,
-                 std::initializer_list<std::pair<const char*, Choice>> known) {
-  std::string all;
-  for (const auto& [word, choice] : known) {
-    if (value == word) return choice;
-    all += (all.empty() ? "" : ", ") + std::string(word);
-  }
-  raise_bad_input(std::string(name) + " is '" + value + "'; must be one of " + all);
-}
-
-void check_positive(const char* name, double value) {
-  if (value > 0.0 && value <= kMaxReachMm) return;
-  raise_bad_input(std::string(name) + " is " + std::to_string(value) + "; must be above 0");
-}
 
 /// Names, ranges and usual values are those of ForceMaterial.
 haptics::ForceMaterial material_of(const py::dict& numbers) {
@@ -107,36 +92,9 @@ haptics::ForceMaterial material_of(const py::dict& numbers) {
     const auto* found = std::find_if(known.begin(), known.end(),
                                      [&](const Number& number) { return name == number.name; });
     if (found == known.end()) raise_bad_input("material has no '" + name + "'");
-    const double number = number_of(name, value);
-    if (!(number >= found->least && number <= found->most)) {
-      raise_bad_input(name + " is " + std::to_string(number) + "; must be from " +
-                      std::to_string(found->least) + " to " + std::to_string(found->most));
-    }
-    *found->value = number;
+    *found->value = in_range(name, number_of(name, value), found->least, found->most);
   }
   return material;
-}
-
-/// The window that a method wants where the tool may move by `margin_mm` about its centre.
-Result<FieldWindow> read_for(const Clay& clay, const ForceSetup& setup, double margin_mm) {
-  const ForceTool& tool = setup.tool;
-  const double largest = std::max({tool.radii_mm.x, tool.radii_mm.y, tool.radii_mm.z});
-  const double finest = clay.options().voxel_mm;
-  if (setup.method == Method::point) {
-    constexpr double kBorderVoxels = 2.0;  // for the gradient
-    return read_window(clay,
-                       {tool.position_mm, finest,
-                        haptics::kKernelSupport * largest + kBorderVoxels * finest + margin_mm,
-                        2.0 * largest + setup.material.skin_mm},
-                       Extension::layers);
-  }
-  haptics::Lattice lattice = haptics::choose_lattice(tool);
-  if (setup.method == Method::fine) lattice.voxel_mm = finest;
-  const WindowRequest request{tool.position_mm, lattice.voxel_mm,
-                              haptics::window_reach_mm(tool, lattice, margin_mm),
-                              haptics::window_depth_mm(tool, setup.material, lattice)};
-  return read_window(clay, request,
-                     setup.method == Method::fine ? Extension::exact : Extension::layers);
 }
 
 std::shared_ptr<ForceWindow> make_window(SharedClay& clay, py::handle center_mm,
@@ -146,11 +104,12 @@ std::shared_ptr<ForceWindow> make_window(SharedClay& clay, py::handle center_mm,
   ForceSetup setup;
   setup.tool.position_mm = vec3_of("center_mm", center_mm);
   setup.tool.radii_mm = vec3_of("radii_mm", radii_mm);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    check_positive("radii_mm", setup.tool.radii_mm[axis]);
-  if (!(margin_mm >= 0.0 && margin_mm <= kMaxReachMm)) {
-    raise_bad_input("margin_mm is " + std::to_string(margin_mm) + "; must be 0 or more");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (setup.tool.radii_mm[axis] > 0.0 && setup.tool.radii_mm[axis] <= kMaxReachMm) continue;
+    raise_bad_input("radii_mm is " + std::to_string(setup.tool.radii_mm[axis]) +
+                    "; must be above 0");
   }
+  in_range("margin_mm", margin_mm, 0.0, kMaxReachMm);
   if (!is_in_reach(setup.tool.position_mm)) raise_bad_input("center_mm is out of reach");
   using haptics::ToolShape;
   setup.tool.shape = choice_of<ToolShape>("shape", shape,
@@ -165,10 +124,13 @@ std::shared_ptr<ForceWindow> make_window(SharedClay& clay, py::handle center_mm,
   setup.material = material_of(material);
   setup.law = choice_of<haptics::ForceLaw>(
       "law", law, {{"energy", haptics::ForceLaw::energy}, {"blanch", haptics::ForceLaw::blanch}});
-  setup.method = choice_of<Method>(
-      "method", method, {{"lod", Method::lod}, {"fine", Method::fine}, {"point", Method::point}});
-  FieldWindow window = clay.run(
-      [&](const Clay& source, const Progress&) { return read_for(source, setup, margin_mm); });
+  setup.method = choice_of<FeltMethod>(
+      "method", method,
+      {{"lod", FeltMethod::lod}, {"fine", FeltMethod::fine}, {"point", FeltMethod::point}});
+  FieldWindow window = clay.run([&](const Clay& source, const Progress&) {
+    return cli::felt_window(source, setup.tool, setup.material, setup.method, margin_mm,
+                            {"the tool", "method='fine'"});
+  });
   return std::make_shared<ForceWindow>(setup, std::move(window));
 }
 

@@ -16,8 +16,10 @@
 
 #include "argil/haptics/analysis/hold_judgement.h"
 #include "argil/haptics/servo/recording.h"
+#include "argil/haptics/simulation/sim_falcon.h"
 
 #include "arrays.h"
+#include "choice.h"
 #include "lab/lab.h"
 #include "lab/run.h"
 #include "work.h"
@@ -55,29 +57,11 @@ py::dict arrays_of(const std::vector<haptics::ServoTick>& ticks) {
 }
 
 const cli::lab::LabSceneKind& scene_kind(const std::string& name) {
-  std::string known;
+  Words<const cli::lab::LabSceneKind*> known;
   for (const cli::lab::LabSceneKind& kind : cli::lab::scene_kinds()) {
-    if (name == kind.name) return kind;
-    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+    known.emplace_back(kind.name, &kind);
   }
-  raise_bad_input("scene is '" + name + "'; must be one of " + known);
-}
-
-std::size_t index_of(const char* name, const std::string& value,
-                     std::initializer_list<const char*> known) {
-  std::size_t n = 0;
-  std::string all;
-  for (const char* one : known) {
-    if (value == one) return n;
-    all += (n++ == 0 ? "" : ", ") + std::string(one);
-  }
-  raise_bad_input(std::string(name) + " is '" + value + "'; must be one of " + all);
-}
-
-double in_range(const char* name, double value, double least, double most) {
-  if (value >= least && value <= most) return value;
-  raise_bad_input(std::string(name) + " is " + std::to_string(value) + "; must be from " +
-                  std::to_string(least) + " to " + std::to_string(most));
+  return *choice_of<const cli::lab::LabSceneKind*>("scene", name, known);
 }
 
 /// The verdict of the last second and every tick, on virtual time.
@@ -89,11 +73,13 @@ py::tuple run_scene(const std::string& name, const std::map<std::string, double>
   cli::lab::LabOptions options;
   options.scene = name;
   options.settings = settings;
-  options.hand = index_of("hand", hand, {"push", "light", "arm", "firm"});
-  options.coupling = index_of("coupling", coupling, {"direct", "indirect"});
+  options.hand =
+      choice_of<std::size_t>("hand", hand, {{"push", 0}, {"light", 1}, {"arm", 2}, {"firm", 3}});
+  options.coupling = choice_of<std::size_t>("coupling", coupling, {{"direct", 0}, {"indirect", 1}});
   options.seconds = in_range("seconds", seconds, 0.0, cli::lab::kMostSeconds);
   options.rate_hz = in_range("rate_hz", rate_hz, cli::lab::kLeastRateHz, cli::lab::kMostRateHz);
-  options.delay_ticks = static_cast<int>(in_range("delay_ticks", delay_ticks, 0, 100));
+  options.delay_ticks = static_cast<int>(
+      in_range("delay_ticks", delay_ticks, 0, haptics::SimFalcon::kMostDelayTicks));
   options.coupling_stiffness_n_per_m =
       in_range("stiffness_n_per_m", stiffness_n_per_m, 1e-3, kMaxReachMm);
   options.has_governor = has_governor;

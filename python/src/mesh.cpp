@@ -19,6 +19,7 @@
 #include "argil/mesh/check.h"
 
 #include "arrays.h"
+#include "choice.h"
 #include "common/output.h"
 #include "common/reports.h"
 #include "convert.h"
@@ -60,16 +61,14 @@ std::shared_ptr<SharedMesh> mesh_of_arrays(const Rows& vertices, const Indices& 
 io::MeshFrame frame_of(const std::optional<std::string>& unit,
                        const std::optional<std::string>& up) {
   io::MeshFrame frame;
-  if (unit) {
-    for (const io::LengthUnit one :
-         {io::LengthUnit::mm, io::LengthUnit::cm, io::LengthUnit::m, io::LengthUnit::in}) {
-      if (*unit == io::unit_name(one)) frame.unit = one;
-    }
-    if (!frame.unit) raise_bad_input("unit is '" + *unit + "'; must be mm, cm, m or in");
+  Words<io::LengthUnit> units;
+  for (const io::LengthUnit one :
+       {io::LengthUnit::mm, io::LengthUnit::cm, io::LengthUnit::m, io::LengthUnit::in}) {
+    units.emplace_back(io::unit_name(one), one);
   }
+  if (unit) frame.unit = choice_of<io::LengthUnit>("unit", *unit, units);
   if (up) {
-    if (*up != "y" && *up != "z") raise_bad_input("up is '" + *up + "'; must be y or z");
-    frame.up = *up == "y" ? io::UpAxis::y : io::UpAxis::z;
+    frame.up = choice_of<io::UpAxis>("up", *up, {{"y", io::UpAxis::y}, {"z", io::UpAxis::z}});
   }
   return frame;
 }

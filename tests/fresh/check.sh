@@ -213,9 +213,9 @@ package() {
   next_step "wheel"
   # As a user does it, in an environment of its own that sees the system's packages; what CMake compiled
   # for the packages, ccache has.
-  run_quietly wheel 'python3 -m venv --system-site-packages /root/venv &&
-    CMAKE_ARGS=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache /root/venv/bin/pip install --no-build-isolation . &&
-    cd / && /root/venv/bin/python -c "import argil; print(argil.Clay.ball(5).surface())"'
+  run_quietly wheel 'venv=$(mktemp -d) && python3 -m venv --system-site-packages "$venv" &&
+    CMAKE_ARGS=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$venv/bin/pip" install --no-build-isolation . &&
+    cd / && "$venv/bin/python" -c "import argil; print(argil.Clay.ball(5).surface())"'
   next_step "install on a second system"
   make_system "$target" || fail "no second $release could be made"
   enter_system "$target"

@@ -197,6 +197,13 @@ def test_as_many_of_both(ball):
         argil.ForceWindow(ball, (0, 0, 20), 4).force(POINTS, POINTS[:1])
 
 
+def test_a_tool_that_no_lattice_resolves_is_refused_as_by_the_command_line(ball):
+    with pytest.raises(argil.BadInput, match="too long or flat.*method='fine'"):
+        argil.ForceWindow(ball, (0, 0, 20), (6, 6, 0.5), shape="ellipsoid")
+    with pytest.raises(argil.BadInput, match="for a clay of this size at most"):
+        argil.ForceWindow(ball, (0, 0, 20), 500)
+
+
 def shown(ball):
     mesh = ball.surface()
     window = argil.ForceWindow(ball, (0, 0, 20), 4)

@@ -52,9 +52,9 @@ def test_a_simulator_that_falls_silent_is_not_felt_and_may_come_back():
 
 
 @pytest.mark.parametrize("wrong, words", [
-    ({"law": "clay"}, "must be direct, indirect or plane"),
+    ({"law": "clay"}, "must be one of direct, indirect, plane"),
     ({"device": "mouse"}, "must be sim or falcon"),
-    ({"hand": "robot"}, "must be push"),
+    ({"hand": "robot"}, "must be one of push, light, arm, firm"),
     ({"stiffness_n_per_m": 7000.0}, "breaks k T < 2 b"),
     ({"stiffness_n_per_m": float("nan")}, "stiffness_n_per_m"),
     ({"motion": [[0, 0, 0, 0]]}, "shape"),

@@ -48,10 +48,10 @@ class ExtractedSurface {
     assert(is_prepared_);
     return parts_ && parts_->has_all(cell, low, side);
   }
-  /// LeftOutParts::untold, of left_out().
-  std::span<const std::uint32_t> untold() const {
+  /// LeftOutParts::ambiguous, of left_out().
+  std::span<const std::uint32_t> ambiguous() const {
     assert(is_prepared_);
-    return parts_ ? parts_->untold() : std::span<const std::uint32_t>{};
+    return parts_ ? parts_->ambiguous() : std::span<const std::uint32_t>{};
   }
   const TriangleMesh& left_out() const noexcept { return left_out_; }
 

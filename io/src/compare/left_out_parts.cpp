@@ -185,28 +185,28 @@ LeftOutParts::LeftOutParts(const TriangleMesh& surface, const TriangleMesh& left
   const Edges edges(surface, left_out, coarsest, voxel_mm, pace.part(0.0, 0.5));
   struct Found {
     std::vector<Mixed> mixed;
-    std::vector<std::uint32_t> untold;
+    std::vector<std::uint32_t> ambiguous;
   };
   std::vector<Found> blocks(block_count(cells.size()));
   in_blocks(cells.size(), pace.part(0.5, 1.0), [&](std::size_t begin, std::size_t end) {
     Found& found = blocks[begin / kDistanceBlock];
     for (std::size_t c = begin; c < end; ++c) {
-      Mixed mixed = mixed_in(cells[c], edges, found.untold);
+      Mixed mixed = mixed_in(cells[c], edges, found.ambiguous);
       mixed.cell = static_cast<std::uint32_t>(c);
       if (mixed.left_out.any()) found.mixed.push_back(mixed);
     }
   });
   for (const Found& found : blocks) {
     mixed_.insert(mixed_.end(), found.mixed.begin(), found.mixed.end());
-    untold_.insert(untold_.end(), found.untold.begin(), found.untold.end());
+    ambiguous_.insert(ambiguous_.end(), found.ambiguous.begin(), found.ambiguous.end());
   }
-  std::sort(untold_.begin(), untold_.end());
-  untold_.erase(std::unique(untold_.begin(), untold_.end()), untold_.end());
+  std::sort(ambiguous_.begin(), ambiguous_.end());
+  ambiguous_.erase(std::unique(ambiguous_.begin(), ambiguous_.end()), ambiguous_.end());
 }
 
-/// Adds to `untold` what untold() is to have of the cell.
+/// Adds to `ambiguous` what ambiguous() is to have of the cell.
 LeftOutParts::Mixed LeftOutParts::mixed_in(const SurfaceCell& cell, const Edges& left_out,
-                                           std::vector<std::uint32_t>& untold) {
+                                           std::vector<std::uint32_t>& ambiguous) {
   struct Cut {
     Vec3 place;
     std::uint32_t vertex = 0;
@@ -230,7 +230,7 @@ LeftOutParts::Mixed LeftOutParts::mixed_in(const SurfaceCell& cell, const Edges&
   for (std::size_t n = 0; n < count_out; ++n) {
     const Boxes piece = pieces.at(out[n].place);
     if ((piece & with_kept).any()) {
-      untold.push_back(out[n].vertex);
+      ambiguous.push_back(out[n].vertex);
     } else {
       mixed.left_out |= piece;
     }

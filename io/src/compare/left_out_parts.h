@@ -43,7 +43,7 @@ class LeftOutParts {
 
   /// Vertices of what was left out at which phi = 0 is of a piece with something that is kept, as
   /// far as can be told: ascending, each once.
-  const std::vector<std::uint32_t>& untold() const noexcept { return untold_; }
+  const std::vector<std::uint32_t>& ambiguous() const noexcept { return ambiguous_; }
 
   static constexpr int kBoxes = 16;  ///< along each axis of a cell
 
@@ -58,10 +58,10 @@ class LeftOutParts {
   };
 
   static Mixed mixed_in(const SurfaceCell& cell, const Edges& left_out,
-                        std::vector<std::uint32_t>& untold);
+                        std::vector<std::uint32_t>& ambiguous);
 
   std::vector<Mixed> mixed_;  ///< cells with something left out, ascending
-  std::vector<std::uint32_t> untold_;
+  std::vector<std::uint32_t> ambiguous_;
 };
 
 }  // namespace argil::io

@@ -59,8 +59,8 @@ Result<mesh::Decimated> decimate_extracted(ExtractedSurface& surface,
     Pace pace(progress, "decimate");
     if (options.max_error_mm > 0.0 && !surface.left_out().triangles.empty()) {
       surface.prepare(pace.part(0.0, 0.1));
-      if (const auto& untold = surface.untold(); !untold.empty()) {
-        return not_told_apart(surface.left_out().positions[untold.front()]);
+      if (const auto& ambiguous = surface.ambiguous(); !ambiguous.empty()) {
+        return not_told_apart(surface.left_out().positions[ambiguous.front()]);
       }
       pace = pace.part(0.1, 1.0);
     }

@@ -45,7 +45,7 @@ class Export {
   /// A stage's part of the whole, by what they cost (bench_export, bench_printing).
   Pace stage(std::string_view name) const;
   Result<void> extract();
-  void keep_untold(const Pace& pace);
+  void keep_ambiguous(const Pace& pace);
   Result<void> make_mesh();
   void certify();
   Result<void> write_and_check(const std::filesystem::path& temporary, MeshFormat format);
@@ -93,12 +93,12 @@ Result<void> Export::extract() {
 
 /// Where the field does not tell a component that was left out from what is beside it nothing could
 /// be proven: it stays.
-void Export::keep_untold(const Pace& pace) {
+void Export::keep_ambiguous(const Pace& pace) {
   for (double done = 0.0; left_out_.count > 0; done += 0.5 * (1.0 - done)) {
     extracted_->prepare(pace.part(done, 0.5 * (1.0 + done)));
-    const std::span<const std::uint32_t> untold = extracted_->untold();
-    if (untold.empty()) return;
-    mesh::put_back(surface_, left_out_, untold);
+    const std::span<const std::uint32_t> ambiguous = extracted_->ambiguous();
+    if (ambiguous.empty()) return;
+    mesh::put_back(surface_, left_out_, ambiguous);
     // What was told from all but these may now not be told from them.
     extracted_.emplace(surface_, clay_, left_out_.mesh);
   }
@@ -117,7 +117,7 @@ Result<void> Export::make_mesh() {
   fewer.max_error_mm = options_.max_error_mm;
   extracted_.emplace(surface_, clay_, left_out_.mesh);
   const Pace pace = stage("decimate");
-  if (options_.max_error_mm > 0.0) keep_untold(pace.part(0.0, 0.1));
+  if (options_.max_error_mm > 0.0) keep_ambiguous(pace.part(0.0, 0.1));
   auto decimated = decimate_extracted(*extracted_, fewer, pace.part(0.1, 1.0).progress());
   if (!decimated) return decimated.error();
   mesh_ = std::move(decimated.value().mesh);

@@ -134,14 +134,14 @@ TEST(LeftOutParts, KeepAnEdgeOfWhichFinerCellsKeepAPart) {
 TEST(LeftOutParts, NameWhatTheFieldDoesNotTellApart) {
   const SpeckAboveCut apart;
   const SpeckAboveCut joined(kJoined);
-  const auto untold = [](const SpeckAboveCut& scene) {
+  const auto ambiguous = [](const SpeckAboveCut& scene) {
     return LeftOutParts(scene.surface, scene.left_out, scene.cells, kSpeckVoxelMm, scene.pace)
-        .untold();
+        .ambiguous();
   };
-  EXPECT_TRUE(untold(apart).empty());
+  EXPECT_TRUE(ambiguous(apart).empty());
   ASSERT_EQ(joined.left_out.triangles.size(), 8U);
   // On the three edges of the cell that end in the speck.
-  EXPECT_EQ(untold(joined).size(), 3U);
+  EXPECT_EQ(ambiguous(joined).size(), 3U);
   const LeftOutParts parts(joined.surface, joined.left_out, joined.cells, kSpeckVoxelMm,
                            joined.pace);
   EXPECT_FALSE(parts.has_all(joined.both, {0.5, 0.5, 0.5}, 0.5));
