@@ -28,9 +28,13 @@ float quantized(float value) {
   return static_cast<float>(std::floor(static_cast<double>(value) * kSteps + 0.5) / kSteps);
 }
 
+/// Farther out than any node all places are one: an int does not hold them.
 Coord floor_node(const Vec3& point_mm, double voxel_mm) {
+  constexpr double kBeyond = 1e9;
   const Vec3 at = point_mm / voxel_mm;
-  return Coord::floor(openvdb::Vec3d(at.x, at.y, at.z));
+  return Coord::floor(openvdb::Vec3d(std::clamp(at.x, -kBeyond, kBeyond),
+                                     std::clamp(at.y, -kBeyond, kBeyond),
+                                     std::clamp(at.z, -kBeyond, kBeyond)));
 }
 
 /// All nodes that a reading within the box takes part of.

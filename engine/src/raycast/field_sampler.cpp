@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "argil/engine/field_sampler.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <memory>
@@ -21,10 +22,13 @@ constexpr double kReachVoxels = 0.875;
 
 namespace {
 
-/// Of what an int holds. std::floor is a call where the processor may lack the instruction.
+/// std::floor is a call where the processor may lack the instruction. Farther out than any node all
+/// places are one: an int does not hold them.
 int floor_of(double x) noexcept {
-  const int toward_zero = static_cast<int>(x);
-  return toward_zero - (static_cast<double>(toward_zero) > x ? 1 : 0);
+  constexpr double kBeyond = 1e9;
+  const double near = std::min(std::max(x, -kBeyond), kBeyond);
+  const int toward_zero = static_cast<int>(near);
+  return toward_zero - (static_cast<double>(toward_zero) > near ? 1 : 0);
 }
 
 }  // namespace

@@ -58,6 +58,22 @@ TEST(FieldSampler, SaysWhatTheClaySaysWhateverWasAskedBefore) {
   }
 }
 
+/// Farther out than an int counts voxels.
+TEST(FieldSampler, AnswersForAnyFinitePoint) {
+  Clay clay = grooved_ball();
+  ASSERT_TRUE(clay.apply(MaskEdit::fill));
+  FieldSampler field(clay);
+  for (const double far : {1e7, 1e9, 1e12, 1e300}) {
+    for (const Vec3& p : {Vec3{far, 0.0, 0.0}, Vec3{0.0, -far, far}, Vec3{-far, -far, -far}}) {
+      EXPECT_EQ(field.distance_mm(p), clay.distance_at(p)) << far;
+      EXPECT_GT(field.distance_mm(p), 0.0) << far;
+      EXPECT_EQ(field.value(p).gradient, Vec3{}) << far;
+      EXPECT_EQ(clay.mask_at(p), 1.0) << far;
+    }
+  }
+  EXPECT_LT(field.distance_mm({}), 0.0) << "and goes on";
+}
+
 TEST(FieldSampler, GivesTheCornersOfCellsBitForBit) {
   const Clay clay = grooved_ball();
   const LevelStack& levels = levels_of(clay);
