@@ -9,8 +9,10 @@
 #include <cstring>
 #include <utility>
 
+#include "field/leaf_finder.h"
 #include "field/leaf_map.h"
 #include "field/parallel.h"
+#include "field/prolongation.h"
 #include "rows/rows.h"
 
 namespace argil {
@@ -22,6 +24,22 @@ constexpr float kLeastSlope = 0.8F;
 /// In voxels. Of a node that rises less along an axis, what is beside it there says next to
 /// nothing: a fiftieth.
 constexpr float kLeastRise = 0.2F;
+
+/// A leaf and what is beside it: where the level has no leaf, what coarser ones say, since the
+/// surface may be there.
+void gather_with_coarser(const LevelStack& stack, int level, const Coord& origin,
+                         HaloBlock& block) {
+  LeafFinder leaves(stack, level);
+  std::array<LeafValues, kHaloLeaves> interpolated;
+  std::array<const float*, kHaloLeaves> around{};
+  for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
+    around[n] = leaves.values(at);
+    if (around[n] != nullptr) return;
+    prolong_leaf(stack, level, at, interpolated[n]);
+    around[n] = interpolated[n].data();
+  });
+  gather_halo(around, block);
+}
 
 /// Bits of a leaf's nodes: word x, bit 8 y + z.
 using NodeBits = std::array<std::uint64_t, kLeafSide>;
@@ -128,7 +146,7 @@ std::vector<ShortNodes> find_short_nodes(const LevelStack& stack, int level, boo
   std::vector<std::uint8_t> is_told(origins.size(), 0);
   for_each_leaf(origins.size(), [&](std::size_t n) {
     HaloBlock block;
-    gather_halo(stack, level, origins[n], block);
+    gather_with_coarser(stack, level, origins[n], block);
     UpwindRows rows;
     row_loops().find_upwind(block, job, rows);
     is_told[n] = bits_from(rows.told) != NodeBits{} ? 1 : 0;

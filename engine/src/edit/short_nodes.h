@@ -17,7 +17,8 @@ struct ShortNodes {
 
 /// The nodes on one side of a level, within the band, that rise too slowly from those beside them,
 /// and all that are told by such nodes, however far: what is farther from the surface than its
-/// value says. None beside the surface. Leaves in the order of their origins.
+/// value says. None beside the surface, though the level may not store what is on its other side.
+/// Leaves in the order of their origins.
 ///
 /// Determinism  the least set that holds them: the same for any number of threads.
 /// Cost         1 us a leaf; while it runs some 580 bytes for each leaf of the level, whose values

@@ -407,15 +407,20 @@ ARGIL_ROWS void distances_by(const LayerJob& job, const PatchTold& told, EightFl
   out = job.layer + (told.is_held ? told.ball : beyond);
 }
 
-/// The same where the patch lies on the surface, below the foot. `way` leads to the point there;
-/// where the patch holds the nearest point it is what the patch tells. A patch that looks the other
-/// way, as on the far side of a thin part, holds none: seen from behind, its rim is the nearest.
+/// The same where the patch lies on the surface, below the foot: smaller than that on the layer
+/// where the clay bulges, all of it one point where the layer bends around a sharp edge. `way`
+/// leads to the point there; where the patch holds the nearest point it is what the patch tells. A
+/// patch that looks the other way, as on the far side of a thin part, holds none: seen from behind,
+/// its rim is the nearest.
 ARGIL_ROWS void surface_distances_by(const LayerJob& job, const Patches& patches,
                                      const EightFloats& squares, const PatchTold& told,
                                      EightFloats& way, EightFloats& out) {
-  const EightFloats above = told.fallen + job.layer;
+  const EightFloats shrunk = 1.0F - patches.bend * job.layer;
+  const EightFloats size = job.patch * (shrunk > 0.0F ? shrunk : EightFloats{});
+  const EightFloats above = patches.height + job.layer + 0.5F * job.patch * size * patches.bend;
+  const EightFloats over = told.over + job.patch - size;
   const EightFloats ball = told.ball + job.layer;
-  roots(above * above + told.over * told.over, out);
+  roots(above * above + over * over, out);
   roots(squares + job.layer * (2.0F * patches.height + job.layer), way);
   const EightInts is_held = told.is_held & (ball >= 0.0F);
   out = is_held ? ball : out;

@@ -22,7 +22,7 @@ ARGIL_ROWS bool upwind_row(const float* __restrict from, const UpwindJob& job,
     for (int axis = 0; axis < 3; ++axis) {
       const float low = job.side * at[-kStride[axis]];
       const float high = job.side * at[kStride[axis]];
-      is_told = is_told & !(low <= 0.0F) & !(high <= 0.0F);  // what is missing is NaN
+      is_told = is_told & (low > 0.0F) & (high > 0.0F);
       const bool by_low = low < here;
       const float nearer = by_low ? low : here;
       const bool by_high = high < nearer;

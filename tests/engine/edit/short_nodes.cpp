@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "argil/engine/clay.h"
 
 #include "clay/clay_access.h"
+#include "field/prolongation.h"
 
 namespace argil {
 namespace {
@@ -69,28 +69,29 @@ class NodeByNode {
   }
 
  private:
-  /// None where the level has no leaf.
-  std::optional<float> at(const Coord& node) const {
-    if (!stack_.has_leaf(level_, leaf_origin(node))) return std::nullopt;
-    return side_ * stack_.sample(level_, node);
+  /// What coarser levels say where the level has no leaf.
+  float at(const Coord& node) const {
+    if (stack_.has_leaf(level_, leaf_origin(node))) return side_ * stack_.sample(level_, node);
+    LeafValues coarse;
+    prolong_leaf(stack_, level_, leaf_origin(node), coarse);
+    return side_ * coarse[static_cast<std::size_t>(leaf_offset(node))];
   }
   static Coord beside(const Coord& node, std::size_t way) {
     return node.offsetBy(kWays[way][0], kWays[way][1], kWays[way][2]);
   }
   bool is_told(const Coord& node) const {
-    const float here = *at(node);
+    const float here = at(node);
     if (!(here > 0.0F && here < stack_.band_mm(level_))) return false;
     for (std::size_t way = 0; way < kWays.size(); ++way) {
-      const auto there = at(beside(node, way));
-      if (there && *there <= 0.0F) return false;
+      if (at(beside(node, way)) <= 0.0F) return false;
     }
     return true;
   }
   /// How far it rises from the nearer of two, in voxels, and which that is.
   std::pair<float, std::size_t> rise(const Coord& node, std::size_t axis) const {
-    const float here = *at(node);
-    const float low = at(beside(node, 2 * axis)).value_or(here);
-    const float high = at(beside(node, 2 * axis + 1)).value_or(here);
+    const float here = at(node);
+    const float low = at(beside(node, 2 * axis));
+    const float high = at(beside(node, 2 * axis + 1));
     const float nearest = std::min({here, low, high});
     return {(here - nearest) / static_cast<float>(stack_.voxel_mm(level_)),
             2 * axis + (high < std::min(low, here) ? 1 : 0)};
