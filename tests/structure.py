@@ -8,7 +8,8 @@ The order of each library's folders is read from cmake/ArgilLayers.cmake (ARGIL_
 first), which stops CMake on the same faults. A public header belongs to the folder whose source has its
 name, and without one to the highest folder that it includes. Exit status 1 when there is an arrow upwards, a
 circle, an include with `..` in its path, a file of the evaluation or of Python that includes more of cli than
-cli/common and cli/lab, a type that is defined twice, or a library with fewer asserts than LEAST_ASSERTS.
+cli/common and cli/lab, a type that is defined twice, a library with fewer asserts than LEAST_ASSERTS, or code of
+others compiled in whose licence cmake/package/copyright does not name.
 """
 import collections
 import pathlib
@@ -25,6 +26,8 @@ PUBLIC = {"core": "engine/core/include", "engine": "engine/include", "mesh": "me
           "haptics": "haptics/include", "io": "io/include", "viewer": "viewer/include"}
 TESTS = {"io": ("io", "readers")}  # library: folders of its tests; where none is named, the one of its name
 LEAST_ASSERTS = {"engine": 8.0, "mesh": 8.0, "haptics": 8.0}  # per 1000 lines, those made at run time
+# Of the system, and of shared libraries that carry their licences themselves: headers that only declare.
+ONLY_CALLED = {"sys", "netinet", "arpa", "X11", "GLFW", "epoxy"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.M)
 CONTROL = {"if", "for", "while", "switch", "catch", "return", "sizeof", "decltype", "alignas"}
 
@@ -238,6 +241,19 @@ def strange_includes(root):
     return faults
 
 
+def unlicensed(root):
+    """Libraries that are included by a folder of their own and that no paragraph of the copyright names."""
+    named = set(re.findall(r"(\w+)/\*", (root / "cmake/package/copyright").read_text()))
+    found = {}
+    for folder in {*ROOTS.values(), *PUBLIC.values()}:
+        for path in sources(root, folder):
+            for name in re.findall(r"^[ \t]*#[ \t]*include[ \t]*<(\w+)/", path.read_text(errors="replace"), re.M):
+                if name not in named | ONLY_CALLED:
+                    found.setdefault(name, path.relative_to(root))
+    return [f"{place} includes {name}, whose licence is not in cmake/package/copyright"
+            for name, place in sorted(found.items())]
+
+
 def report_functions(root):
     faults = []
     print(f"\n{'library':12}{'functions':>10}{'median':>7}{'p90':>5}{'max':>5}  {'comments: public, sources':26}"
@@ -316,6 +332,7 @@ def main():
     faults = report_folders(root, orders) + strange_includes(root) + report_functions(root)
     report_tests(root)
     twice = doubles(root)
+    faults += unlicensed(root)
     print(f"\ntypes defined twice: {len(twice)}")
     for fault in faults + twice:
         print(f"FAULT {fault}")

@@ -189,6 +189,10 @@ case $fault in
     configuration_stops 'target_link_libraries(argil_io PRIVATE argil_cli)' \
       io/CMakeLists.txt 'Forbidden link edge: argil_io -> argil_cli'
     ;;
+  UnlicensedLibraryFails)
+    echo '#include <thrust/sort.h>' >>"$copy/mesh/src/check/check.cpp"
+    structure_fails 'includes thrust, whose licence is not in cmake/package/copyright'
+    ;;
   FewAssertsFail)
     # What the compiler checks does not count.
     find "$copy/mesh" -name '*.[ch]*' -exec sed -i -E 's/\bassert\s*\(/static_assert(/' {} +
