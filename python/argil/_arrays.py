@@ -13,8 +13,15 @@ Floats = NDArray[np.float64]
 Triple = Union[Sequence[float], Floats]
 
 
+def _refuse_masked(name: str, values: Any) -> None:
+    """NumPy would take what is masked as numbers like others."""
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise BadInput(f"{name} has masked entries; fill them, or take their rows out")
+
+
 def rows(name: str, values: ArrayLike) -> Floats:
     """`values` as doubles: the same array where it is of doubles already, in order and aligned."""
+    _refuse_masked(name, values)
     try:
         given = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
@@ -26,6 +33,7 @@ def rows(name: str, values: ArrayLike) -> Floats:
 
 def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
     """`values` as whole numbers; (0, 3) where there are none."""
+    _refuse_masked(name, values)
     try:
         given = np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:

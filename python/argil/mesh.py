@@ -186,7 +186,12 @@ class Mesh:
         return self
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return Mesh, (np.array(self.vertices), np.array(self.faces))
+        return _unpickled, (np.array(self.vertices), np.array(self.faces), np.array(self.normals))
 
     def __repr__(self) -> str:
         return f"<argil.Mesh: {len(self.vertices)} vertices, {len(self.faces)} faces>"
+
+
+def _unpickled(vertices: Floats, faces: NDArray[np.uint32], normals: Floats) -> Mesh:
+    """What pickle calls."""
+    return Mesh._of(_native.Mesh(rows("vertices", vertices), indices("faces", faces), rows("normals", normals)))

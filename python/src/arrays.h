@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <pybind11/numpy.h>
-
 #include "argil/core/vec3.h"
 
+#include "binding.h"
 #include "errors.h"
 
 namespace argil::python {

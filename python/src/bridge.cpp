@@ -15,8 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include <pybind11/stl.h>
-
 #include "argil/haptics/bridge/bridge_run.h"
 #include "argil/haptics/bridge/bridge_session.h"
 #include "argil/haptics/servo/servo_run.h"
@@ -84,7 +82,7 @@ class LocalBridge {
         driver_(session_, link_, [](const haptics::BridgeRow&) {}),
         thread_(std::in_place, servo_, &driver_) {}
   ~LocalBridge() {
-    const py::gil_scoped_release released;
+    const InterpreterReleased released;
     thread_.reset();
   }
   LocalBridge(const LocalBridge&) = delete;
@@ -95,7 +93,7 @@ class LocalBridge {
   /// The servo's figures; the hand is let go.
   py::dict stop() {
     {
-      const py::gil_scoped_release released;
+      const InterpreterReleased released;
       thread_->stop();
     }
     const haptics::ServoRun& run = thread_->stop();
@@ -163,7 +161,7 @@ bool wait_for_bridge(LocalBridge& self, double seconds) {
   bool has_come = false;
   {
     constexpr double kSliceS = 0.06;
-    const py::gil_scoped_release released;
+    const InterpreterReleased released;
     for (double left = seconds; !has_come && left > 0.0 && watch.goes_on(); left -= kSliceS) {
       has_come = self.link().wait_to_take(std::min(left, kSliceS));
     }

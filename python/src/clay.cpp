@@ -8,9 +8,6 @@
 #include <variant>
 #include <vector>
 
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include "argil/core/hash_text.h"
 #include "argil/engine/clay_copy.h"
 #include "argil/engine/import.h"

@@ -4,12 +4,11 @@
 #include <memory>
 #include <utility>
 
-#include <pybind11/pybind11.h>
-
 #include "argil/engine/clay.h"
 #include "argil/engine/display_surface.h"
 #include "argil/engine/surface_picker.h"
 
+#include "binding.h"
 #include "work.h"
 
 namespace argil::python {

@@ -4,13 +4,12 @@
 #include <string>
 
 #include <nlohmann/json.hpp>
-#include <pybind11/pybind11.h>
 
 #include "argil/core/vec3.h"
 
-namespace argil::python {
+#include "binding.h"
 
-namespace py = pybind11;
+namespace argil::python {
 
 /// What `--json` of the command line prints, as Python has it: dict, list, str, int, float, bool,
 /// None.

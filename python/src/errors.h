@@ -3,13 +3,11 @@
 
 #include <utility>
 
-#include <pybind11/pybind11.h>
-
 #include "argil/core/result.h"
 
-namespace argil::python {
+#include "binding.h"
 
-namespace py = pybind11;
+namespace argil::python {
 
 /// Adds Argil's exceptions to the module: `Error` and one class for each ErrorKind, which are also
 /// what Python calls such a thing (ValueError, MemoryError, OSError).

@@ -12,8 +12,6 @@
 #include <string>
 #include <utility>
 
-#include <pybind11/stl.h>
-
 #include "argil/engine/window.h"
 #include "argil/haptics/force/lattice_force.h"
 #include "argil/haptics/force/tool_force.h"

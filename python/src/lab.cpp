@@ -11,9 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include "argil/haptics/analysis/hold_judgement.h"
 #include "argil/haptics/servo/recording.h"
 #include "argil/haptics/simulation/sim_falcon.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <pybind11/pybind11.h>
+#include "binding.h"
 
 namespace argil::python {
-
-namespace py = pybind11;
 
 void add_lab(py::module_& module);
 

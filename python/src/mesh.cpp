@@ -9,9 +9,6 @@
 #include <span>
 #include <vector>
 
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-
 #include "argil/io/mesh_file.h"
 #include "argil/io/mesh_frame.h"
 #include "argil/io/mesh_repair.h"
@@ -49,12 +46,23 @@ std::vector<Triangle> triangles_of(const Indices& faces, std::size_t vertices) {
   return triangles;
 }
 
-std::shared_ptr<SharedMesh> mesh_of_arrays(const Rows& vertices, const Indices& faces) {
+/// `normals`: none, or one for each vertex, of unit length.
+std::shared_ptr<SharedMesh> mesh_of_arrays(const Rows& vertices, const Indices& faces,
+                                           const std::optional<Rows>& normals) {
   const auto positions = points_of("vertices", vertices);
   check_finite("vertices", positions);
   TriangleMesh mesh;
   mesh.triangles = triangles_of(faces, positions.size());
   mesh.positions.assign(positions.begin(), positions.end());
+  if (normals && normals->size() > 0) {
+    const auto given = points_of("normals", *normals);
+    check_finite("normals", given);
+    if (given.size() != positions.size()) {
+      raise_bad_input("there are " + std::to_string(given.size()) + " normals and " +
+                      std::to_string(positions.size()) + " vertices; give one for each");
+    }
+    mesh.normals.assign(given.begin(), given.end());
+  }
   return std::make_shared<SharedMesh>(std::move(mesh));
 }
 
@@ -139,7 +147,8 @@ mesh::Printer printer_of(const std::string& file, double min_wall_mm, double min
 
 void add_meshes(py::module_& module) {
   py::class_<SharedMesh, std::shared_ptr<SharedMesh>>(module, "Mesh")
-      .def(py::init(&mesh_of_arrays), py::arg("vertices"), py::arg("faces"))
+      .def(py::init(&mesh_of_arrays), py::arg("vertices"), py::arg("faces"),
+           py::arg("normals") = py::none())
       .def_static("read", &read, py::arg("file"), py::arg("unit"), py::arg("up"))
       .def("write", &write, py::arg("file"), py::arg("title"))
       .def("vertices",

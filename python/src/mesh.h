@@ -4,14 +4,12 @@
 #include <string>
 #include <utility>
 
-#include <pybind11/pybind11.h>
-
 #include "argil/core/triangle_mesh.h"
 #include "argil/mesh/printer.h"
 
-namespace argil::python {
+#include "binding.h"
 
-namespace py = pybind11;
+namespace argil::python {
 
 /// A mesh that never changes, so that its arrays can be shown in place and any thread may read it.
 class SharedMesh {

@@ -10,9 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-
 #include "argil/engine/render.h"
 #include "argil/io/png.h"
 

@@ -37,11 +37,11 @@ void add_threads(py::module_& module) {
 }
 
 bool SignalWatch::goes_on() {
-  if (has_thrown_) return false;
+  if (has_thrown_ || is_ending()) return false;
   const auto now = Clock::now();
   if (now - asked_ < kAskEvery) return true;
   asked_ = now;
-  const py::gil_scoped_acquire held;
+  const InterpreterHeld held;
   // What the handler throws stays with this thread's state until rethrow().
   has_thrown_ = PyErr_CheckSignals() != 0;
   return !has_thrown_;
@@ -58,7 +58,7 @@ WorkLock::Held WorkLock::hold() {
   SignalWatch watch;
   bool has_it = mutex_.try_lock();
   if (!has_it) {
-    const py::gil_scoped_release released;
+    const InterpreterReleased released;
     while (!has_it && watch.goes_on()) has_it = mutex_.try_lock_for(kAskEvery);
   }
   if (!has_it) watch.rethrow();

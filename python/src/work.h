@@ -7,11 +7,11 @@
 #include <thread>
 #include <utility>
 
-#include <pybind11/pybind11.h>
-
 #include "argil/core/progress.h"
 
+#include "binding.h"
 #include "errors.h"
+#include "interpreter.h"
 
 namespace argil::python {
 
@@ -25,7 +25,7 @@ class SignalWatch {
   Progress progress() {
     return [this](std::string_view, double) { return goes_on(); };
   }
-  /// False where a handler of Python threw.
+  /// False where a handler of Python threw, and where the program ends.
   bool goes_on();
   /// With the interpreter held: throws what the handler threw.
   void rethrow() const;
@@ -41,7 +41,7 @@ template <class Work>
 auto run(Work&& work) {
   SignalWatch watch;
   auto result = [&] {
-    const py::gil_scoped_release released;
+    const InterpreterReleased released;
     return work(watch.progress());
   }();
   watch.rethrow();

@@ -248,3 +248,13 @@ def test_doubles_are_read_in_place(ball):
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert points.size * 8 / 3 <= most < points.size * 8 / 2  # the answers, and no copy
+
+
+def test_masked_entries_are_no_numbers(ball):
+    masked = np.ma.masked_array([[0.0, 0, 0], [1, 2, 3]], mask=[[0, 0, 0], [0, 1, 0]])
+    for call in (ball.distance, ball.gradient, lambda p: argil.Mesh(p, [[0, 1, 0]]),
+                 lambda p: ball.stroke(p, tool="carve", radius_mm=2)):
+        with pytest.raises(argil.BadInput, match="masked"):
+            call(masked)
+    with pytest.raises(argil.BadInput, match="masked"):
+        argil.Mesh(np.eye(3), np.ma.masked_array([[0, 1, 2]], mask=[[0, 0, 1]]))

@@ -75,6 +75,10 @@ def test_walls_gaps_and_overhangs_are_asked_for(box):
 def test_meshes_are_pickled(box):
     twin = pickle.loads(pickle.dumps(box))
     assert np.array_equal(twin.vertices, box.vertices) and np.array_equal(twin.faces, box.faces)
+    assert not twin.normals.size
+    surface = argil.Clay.ball(5, voxel_mm=0.5).surface()
+    assert np.array_equal(pickle.loads(pickle.dumps(surface)).normals, surface.normals)
+    assert len(surface.normals) == len(surface.vertices)
 
 
 # --- forces

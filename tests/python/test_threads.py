@@ -2,6 +2,8 @@
 """Work lets other threads run, waits for its turn, and ends when the user says so."""
 import _thread
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -247,3 +249,31 @@ def test_waiting_for_another_thread_can_be_interrupted(fine):
         timer.join()
         thread.join()
     assert outcome == [None]  # the other thread's work was not touched
+
+
+# The program ends while daemons are at work, wait for their turn, and ask whether Ctrl-C came.
+ENDS_AT_WORK = """
+import threading, time
+import numpy as np
+import argil
+
+clay = argil.Clay.ball(20, voxel_mm=0.2)
+points = np.random.default_rng(1).uniform(-20, 20, (20000, 3))
+
+def for_ever(work):
+    while True:
+        work()
+
+for work in (lambda: clay.copy().offset(1), lambda: clay.distance(points), lambda: clay.hash(),
+             lambda: argil.Clay.ball(10, voxel_mm=0.5)):
+    threading.Thread(target=for_ever, args=(work,), daemon=True).start()
+time.sleep({seconds})
+print("ended")
+"""
+
+
+@pytest.mark.parametrize("seconds", [0.05, 0.2, 0.35])
+def test_a_program_ends_while_daemons_are_at_work(seconds):
+    ended = subprocess.run([sys.executable, "-c", ENDS_AT_WORK.replace("{seconds}", str(seconds))],
+                           capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "ended\n", "")
