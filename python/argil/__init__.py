@@ -12,8 +12,8 @@ line and stroke scripts of Argil have, and the same calls give the same bits.
     >>> clay.export("piece.3mf")["printable"]
     True
 
-Long work lets other threads run, and Ctrl-C ends it and leaves the clay as it was; reading a mesh, making
-a ball or a block, and copies come to their end first. A clay may be used from several threads: they
+Long work lets other threads run, and Ctrl-C ends it and leaves the clay as it was; saving, copies and an exact
+window come to their end first. A clay may be used from several threads: they
 wait for each other.
 """
 from ._native import (BadInput, DeviceError, DiskError, Error, InternalError, OutOfMemory,

@@ -50,14 +50,14 @@ ClayOptions options_of(double voxel_mm, double tolerance_voxels,
 ClayHolder ball(double radius_mm, double voxel_mm, double tolerance_voxels,
                 std::optional<double> edge_radius_mm) {
   const ClayOptions options = options_of(voxel_mm, tolerance_voxels, edge_radius_mm);
-  return hold(run([&](const Progress&) { return Clay::ball(radius_mm, options); }));
+  return hold(run_apart([=] { return Clay::ball(radius_mm, options); }));
 }
 
 ClayHolder block(py::handle size_mm, double voxel_mm, double tolerance_voxels,
                  std::optional<double> edge_radius_mm) {
   const ClayOptions options = options_of(voxel_mm, tolerance_voxels, edge_radius_mm);
   const Vec3 size = vec3_of("size_mm", size_mm);
-  return hold(run([&](const Progress&) { return Clay::block(size, options); }));
+  return hold(run_apart([=] { return Clay::block(size, options); }));
 }
 
 /// Throws where a vertex lies farther out than a clay can reach, which what closes and imports
@@ -187,8 +187,7 @@ py::dict apply_script(SharedClay& self, const std::filesystem::path& file) {
     std::int64_t steps = 0;
     std::int64_t dabs = 0;
   };
-  const io::StrokeScript script =
-      run([&](const Progress&) { return io::read_stroke_script(file); });
+  const io::StrokeScript script = run_apart([file] { return io::read_stroke_script(file); });
   const Done done = self.run([&](Clay& clay, const Progress& progress) -> Result<Done> {
     Done so_far;
     for (const io::ScriptStep& step : script.steps) {
@@ -211,15 +210,13 @@ py::dict apply_script(SharedClay& self, const std::filesystem::path& file) {
 
 /// The clay that a script starts from.
 ClayHolder start_of_script(const std::filesystem::path& file) {
-  const io::StrokeScript script =
-      run([&](const Progress&) { return io::read_stroke_script(file); });
+  const io::StrokeScript script = run_apart([file] { return io::read_stroke_script(file); });
   if (!script.start) {
     raise_bad_input("'" + file.string() +
                     "' has no 'start'; add it to the script's first line, or apply the script to a "
                     "clay that you have");
   }
-  const io::StartShape& start = *script.start;
-  return hold(run([&](const Progress&) {
+  return hold(run_apart([start = *script.start] {
     return start.kind == io::StartShape::Kind::ball ? Clay::ball(start.size_mm.x, start.options)
                                                     : Clay::block(start.size_mm, start.options);
   }));

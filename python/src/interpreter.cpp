@@ -20,6 +20,12 @@ constexpr std::chrono::seconds kLongestWait{10};
 class Work {
  public:
   void begin() {
+    const std::lock_guard lock(mutex_);
+    ++count_;
+  }
+
+  /// Of a thread that the interpreter knows, and that has let it go.
+  void begin_unless_ending() {
     std::unique_lock lock(mutex_);
     if (is_ending_here()) {
       lock.unlock();
@@ -29,13 +35,14 @@ class Work {
   }
 
   void end() {
-    std::unique_lock lock(mutex_);
+    const std::lock_guard lock(mutex_);
     assert(count_ > 0);
     --count_;
     none_.notify_all();
-    if (!is_ending_here()) return;
-    lock.unlock();
-    sleep_for_ever();
+  }
+
+  void sleep_if_ending() {
+    if (is_ending()) sleep_for_ever();
   }
 
   bool is_ending() {
@@ -80,10 +87,16 @@ void add_end_of_work(py::module_& module) {
 
 bool is_ending() noexcept { return work().is_ending(); }
 
-InterpreterReleased::InterpreterReleased() : thread_(PyEval_SaveThread()) { work().begin(); }
+WorkInProgress::WorkInProgress() { work().begin(); }
+WorkInProgress::~WorkInProgress() { work().end(); }
+
+InterpreterReleased::InterpreterReleased() : thread_(PyEval_SaveThread()) {
+  work().begin_unless_ending();
+}
 
 InterpreterReleased::~InterpreterReleased() {
   work().end();
+  work().sleep_if_ending();
   take_interpreter([this] { PyEval_RestoreThread(thread_); });
 }
 

@@ -32,6 +32,15 @@ void take_interpreter(const Take& take) noexcept {
   }
 }
 
+/// Work of a thread that never has the interpreter, counted while this lives.
+class WorkInProgress {
+ public:
+  WorkInProgress();
+  ~WorkInProgress();
+  WorkInProgress(const WorkInProgress&) = delete;
+  WorkInProgress& operator=(const WorkInProgress&) = delete;
+};
+
 /// The interpreter is let go while this lives, for work.
 class InterpreterReleased {
  public:

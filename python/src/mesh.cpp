@@ -85,7 +85,7 @@ io::MeshFrame frame_of(const std::optional<std::string>& unit,
 py::tuple read(const std::filesystem::path& file, const std::optional<std::string>& unit,
                const std::optional<std::string>& up) {
   const io::MeshFrame frame = frame_of(unit, up);
-  io::FramedMesh read = run([&](const Progress&) { return io::read_framed_mesh(file, frame); });
+  io::FramedMesh read = run_apart([=] { return io::read_framed_mesh(file, frame); });
   const auto doubts = io::frame_doubts(file, read.frame);
   return py::make_tuple(std::make_shared<SharedMesh>(std::move(read.mesh)), doubts);
 }

@@ -9,7 +9,6 @@
 namespace argil::python {
 namespace {
 
-constexpr std::chrono::milliseconds kAskEvery{50};
 constexpr int kMostThreads = 1024;
 
 /// The interpreter is held, so that one thread at a time comes here. Left to the end of the

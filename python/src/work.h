@@ -3,10 +3,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "argil/core/no_throw.h"
 #include "argil/core/progress.h"
 
 #include "binding.h"
@@ -14,6 +17,9 @@
 #include "interpreter.h"
 
 namespace argil::python {
+
+/// How often it is looked whether a signal came.
+inline constexpr std::chrono::milliseconds kAskEvery{50};
 
 /// Ctrl-C during work that has let the interpreter go.
 ///
@@ -46,6 +52,31 @@ auto run(Work&& work) {
   }();
   watch.rethrow();
   return value_of(std::move(result));
+}
+
+/// The same of `work()`, which makes something new and cannot be stopped: it runs in a thread of
+/// its own, which Ctrl-C leaves behind to come to its end, and what it makes is let go. Copies what
+/// it refers to.
+///
+/// Cost     beside the work some 50 us.
+template <class Work>
+auto run_apart(Work work) {
+  using Made = decltype(work());
+  struct Apart {
+    WorkInProgress counted;
+    std::promise<Made> made;
+  };
+  return run([&](const Progress& progress) -> Made {
+    const auto apart = std::make_shared<Apart>();
+    std::future<Made> made = apart->made.get_future();
+    std::thread([apart, work = std::move(work)] {
+      apart->made.set_value(no_throw("work", work));
+    }).detach();
+    while (made.wait_for(kAskEvery) != std::future_status::ready) {
+      if (!progress("work", 0.0)) return Error{ErrorKind::interrupted, "interrupted"};
+    }
+    return made.get();
+  });
 }
 
 /// Adds set_threads.

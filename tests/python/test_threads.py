@@ -178,6 +178,27 @@ def test_ctrl_c_is_heard(huge, large, fine, name, after_cpu_s, tmp_path, monkeyp
     assert fine.hash() == before and fine.undo_depth == depth and not list(tmp_path.iterdir())
 
 
+def come_to_rest():
+    """Until nothing that Ctrl-C left behind is at work."""
+    busy_s = 1.0
+    while busy_s > 0.02:
+        before = time.process_time()
+        time.sleep(0.1)
+        busy_s = time.process_time() - before
+
+
+def test_ctrl_c_leaves_behind_what_cannot_be_stopped(huge, tmp_path):
+    """It comes to its end apart."""
+    file = str(tmp_path / "huge.obj")
+    huge.save(file)
+    for work in (lambda: argil.Clay.ball(500, voxel_mm=0.25), lambda: argil.Mesh.load(file),
+                 lambda: argil.Clay.block((701, 501.3, 300.7), voxel_mm=0.4)):
+        with Interrupt(0.05) as ctrl_c, pytest.raises(KeyboardInterrupt):
+            work()
+        assert ctrl_c.heard_cpu_s - ctrl_c.sent_cpu_s < LATE_CPU_S
+        come_to_rest()
+
+
 def test_what_a_handler_raises_is_what_the_caller_gets(fine):
     class Enough(Exception):
         pass
