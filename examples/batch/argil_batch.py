@@ -6,9 +6,9 @@ python3-distributed): a cluster on this machine, or one whose scheduler is named
 both folders under the same paths.
 
 Run again, it does only what is not done: new and changed files, and all of them where the options
-changed. RESULTS holds NAME.ENDING.3mf and, in `records`, what was found and a picture of each; report.csv
-and report.html are made of these. Exit status: 0 all is done; 1 some files failed, the report says why;
-130 Ctrl-C, with what was done until then in the report.
+or the printer's profile changed. RESULTS holds NAME.ENDING.3mf and, in `records`, what was found and a
+picture of each; report.csv and report.html are made of these. Exit status: 0 all is done; 1 some files
+failed, the report says why; 130 Ctrl-C, with what was done until then in the report.
 """
 import argparse
 import contextlib
@@ -43,11 +43,14 @@ def write_record(file, out, record):
     write_whole(record_of(file, out), json.dumps(record, indent=1).encode())
 
 
+def content_hash(file):
+    return hashlib.blake2b(file.read_bytes(), digest_size=16).hexdigest()
+
+
 def identity(file):
     """What tells whether a file has changed."""
     about = file.stat()
-    return {"bytes": about.st_size, "modified_ns": about.st_mtime_ns,
-            "hash": hashlib.blake2b(file.read_bytes(), digest_size=16).hexdigest()}
+    return {"bytes": about.st_size, "modified_ns": about.st_mtime_ns, "hash": content_hash(file)}
 
 
 def done_before(file, out, options):
@@ -57,7 +60,7 @@ def done_before(file, out, options):
         about, then = file.stat(), record["input"]
         if record["options"] != options or about.st_size != then["bytes"]:
             return None
-        if about.st_mtime_ns != then["modified_ns"] and identity(file)["hash"] != then["hash"]:
+        if about.st_mtime_ns != then["modified_ns"] and content_hash(file) != then["hash"]:
             return None
         return record if not record["output"] or (out / record["output"]).exists() else None
     except (OSError, ValueError, KeyError, TypeError):
@@ -208,6 +211,7 @@ def main():
     options = {key: getattr(given, key) for key in ("unit", "wall_mm", "drain_mm", "voxel_mm",
                                                     "resolution", "max_error_mm", "allow_loss")}
     options["printer"] = str(given.printer.resolve()) if given.printer else ""
+    options["printer_hash"] = content_hash(given.printer) if given.printer else ""
     files = sorted(f for f in given.folder.resolve().iterdir()
                    if f.suffix.lower() in ENDINGS and not f.is_dir())
     records = kept(files, out, options, given.again)

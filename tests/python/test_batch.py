@@ -167,6 +167,20 @@ def test_what_is_done_is_not_done_again(batch):
     assert len(before) - len(same) == 4  # two records, one picture and the print that was lost
 
 
+def test_a_changed_profile_of_the_printer_is_another_task(tmp_path):
+    write_meshes(tmp_path / "meshes", 1)
+    profile = tmp_path / "printer.json"
+    profile.write_bytes((ROOT / "printers/filament.json").read_bytes())
+    before = []
+    for wall in (None, None, 0.9):
+        if wall is not None:
+            profile.write_text(json.dumps({**json.loads(profile.read_text()), "min_wall_mm": wall}))
+        ran = subprocess.run(command(tmp_path / "meshes", tmp_path / "out", "--printer", str(profile)),
+                             capture_output=True, text=True, timeout=300)
+        before.append(ran.stdout.splitlines()[0])
+    assert before == [f"4 meshes, {done} of them done before" for done in (0, 4, 0)]
+
+
 def test_a_file_that_kills_its_workers_is_given_up(tmp_path):
     """Not for ever tried again; the others are done."""
     write_meshes(tmp_path / "meshes", 2)
