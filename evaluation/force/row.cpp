@@ -57,7 +57,8 @@ std::string result_fields(const ForceRow& row) {
         100.0 * quantile(t.ripple_pp, 1.0), 100.0 * mean(t.bound_held), quantile(t.opposed, 0.95),
         centre_pct(row), 100.0 * quantile(t.centre_error, 0.95),
         100.0 * quantile(t.centre_lod_error, 0.95)}) {
-    text += "," + csv_field(value);
+    text += ',';
+    text += csv_field(value);
   }
   return text;
 }
@@ -69,7 +70,8 @@ std::string time_fields(const ForceRow& row) {
                      csv_field(quantile(row.tally.centre_us, 0.5));
   const cli::WindowTimes& windows = row.tally.windows;
   for (const auto* ms : {&windows.fresh, &windows.moved, &windows.after_dab}) {
-    text += "," + csv_field(1e3 * quantile(*ms, 0.5));
+    text += ',';
+    text += csv_field(1e3 * quantile(*ms, 0.5));
   }
   return text;
 }

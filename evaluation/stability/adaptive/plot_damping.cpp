@@ -76,8 +76,9 @@ std::string damper_panel(const std::vector<DampedWallRow>& rows, const DamperAxe
 std::string damper_tics(const DamperAxes& axes, bool has_numbers) {
   std::string text = "set ytics (";
   for (const double c : {0.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    text += "'" + (has_numbers ? cli::number(c) : "") + "' " + cli::number(axes.up(c)) +
-            (c < 50.0 ? "," : ")\n");
+    text += '\'';
+    if (has_numbers) text += cli::number(c);
+    text += "' " + cli::number(axes.up(c)) + (c < 50.0 ? "," : ")\n");
   }
   return text;
 }

@@ -739,6 +739,13 @@ Result<bool> App::play(const ScriptStep& step) {
                                              ": nothing is labelled " + in_quotes(label) +
                                              "; there are" + known};
     }
+    // Panels that answers of the document's thread still move would be missed by the press.
+    if (pointed_at_ != position) {
+      pointed_at_ = position;
+      wait_frames_ = 1;
+      return false;
+    }
+    pointed_at_.reset();
     InputEvent move;
     move.x = position->x;
     move.y = position->y;

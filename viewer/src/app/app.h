@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "argil/core/vec3.h"
 #include "argil/viewer/view.h"
 
 #include "commands/gestures.h"
@@ -105,6 +106,7 @@ class App {
   std::deque<ScriptStep> script_;             ///< what is still to be played
   bool has_script_ = false;                   ///< there was one: the window ends with it
   int wait_frames_ = 0;                       ///< until its next step
+  std::optional<Vec3> pointed_at_;            ///< where the widget of its step was two frames ago
   std::vector<std::filesystem::path> shots_;  ///< to be stored once this frame is drawn
   int turntable_ = 0;                         ///< which one is being made
 

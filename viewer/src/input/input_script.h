@@ -25,7 +25,7 @@ struct WaitFrames {
 };
 /// Waits until the clay has done all that was requested, and it was drawn.
 struct Settle {};
-/// Moves the pointer to a widget, by its label.
+/// Moves the pointer to a widget, by its label, once it stays in its place.
 struct PointAt {
   std::string label;
 };
