@@ -31,7 +31,7 @@ def preprocessed(entry):
     words = shlex.split(entry["command"])
     if Path(words[0]).name == "ccache":
         words = words[1:]
-    words = words[:words.index("-o")] + ["-E", "-P", "-CC", entry["file"]]
+    words = words[:words.index("-o")] + ["-E", "-P", "-C", entry["file"]]
     return subprocess.run(words, cwd=entry["directory"], capture_output=True, check=True).stdout
 
 

@@ -14,8 +14,9 @@ Triple = Union[Sequence[float], Floats]
 
 
 def _refuse_masked(name: str, values: Any) -> None:
-    """NumPy would take what is masked as numbers like others."""
-    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+    """NumPy would take what is masked as numbers like others. Rows of a sequence may be masked, too."""
+    parts = values if isinstance(values, (list, tuple)) else [values]
+    if any(isinstance(part, np.ma.MaskedArray) and np.any(part.mask) for part in parts):
         raise BadInput(f"{name} has masked entries; fill them, or take their rows out")
 
 

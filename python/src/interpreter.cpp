@@ -1,103 +1,95 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interpreter.h"
 
+#include <atomic>
 #include <cassert>
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
+
+#include <cxxabi.h>
+#include <pthread.h>
+#include <unistd.h>
 
 namespace argil::python {
 namespace {
 
 constexpr std::chrono::seconds kLongestWait{10};
+constexpr std::chrono::milliseconds kWaitSlice{2};
+
+// No mutex: a fork would find it locked by a thread that it has not.
+std::atomic<int> g_at_work{0};
+std::atomic<bool> g_has_ended{false};
+/// Only the thread that ends Python lets the interpreter go after that has begun.
+thread_local bool t_ends_python = false;
+
+bool is_finalizing() noexcept {
+#if PY_VERSION_HEX >= 0x030D0000
+  return Py_IsFinalizing() != 0;
+#else
+  return _Py_IsFinalizing() != 0;
+#endif
+}
+
+/// Python calls it when the interpreter is gone, and Ctrl-C ends the process as it is.
+void wait_for_work() noexcept {
+  g_has_ended = true;
+  const auto until = std::chrono::steady_clock::now() + kLongestWait;
+  while (g_at_work > 0 && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(kWaitSlice);
+  }
+}
 
 [[noreturn]] void sleep_for_ever() noexcept {
   while (true) pause();
 }
 
-/// Who is at work without the interpreter, and whether the program ends.
-class Work {
- public:
-  void begin() {
-    const std::lock_guard lock(mutex_);
-    ++count_;
-  }
-
-  /// Of a thread that the interpreter knows, and that has let it go.
-  void begin_unless_ending() {
-    std::unique_lock lock(mutex_);
-    if (is_ending_here()) {
-      lock.unlock();
-      sleep_for_ever();
-    }
-    ++count_;
-  }
-
-  void end() {
-    const std::lock_guard lock(mutex_);
-    assert(count_ > 0);
-    --count_;
-    none_.notify_all();
-  }
-
-  void sleep_if_ending() {
-    if (is_ending()) sleep_for_ever();
-  }
-
-  bool is_ending() {
-    const std::lock_guard lock(mutex_);
-    return is_ending_here();
-  }
-
-  /// Without the interpreter, which work that asks for signals needs.
-  void stop_all() {
-    std::unique_lock lock(mutex_);
-    ender_ = std::this_thread::get_id();
-    if (getpid() != process_) return;  // a fork has none of the threads
-    none_.wait_for(lock, kLongestWait, [this] { return count_ == 0; });
-  }
-
- private:
-  bool is_ending_here() const { return ender_ && *ender_ != std::this_thread::get_id(); }
-
-  std::mutex mutex_;
-  std::condition_variable none_;
-  int count_ = 0;
-  std::optional<std::thread::id> ender_;
-  pid_t process_ = getpid();
-};
-
-/// Left to the end of the process: threads come here after statics are gone.
-Work& work() {
-  static Work& all = *new Work;
-  return all;
-}
-
 }  // namespace
 
-void add_end_of_work(py::module_& module) {
-  work();  // in this process
-  module.def("_stop_all_work", [] {
-    const py::gil_scoped_release released;
-    work().stop_all();
-  });
-  py::module_::import("atexit").attr("register")(module.attr("_stop_all_work"));
+void add_end_of_work(py::module_&) {
+  g_has_ended = false;  // by an interpreter before this one
+  static const bool is_added = [] {
+    pthread_atfork(nullptr, nullptr, [] { g_at_work = 0; });  // a fork has none of the threads
+    return true;
+  }();
+  assert(is_added);
+  if (Py_AtExit(&wait_for_work) != 0)
+    throw py::import_error("Python has no place for what ends argil's work");
 }
 
-bool is_ending() noexcept { return work().is_ending(); }
+bool is_ended_here() noexcept { return t_ends_python; }
 
-WorkInProgress::WorkInProgress() { work().begin(); }
-WorkInProgress::~WorkInProgress() { work().end(); }
+bool is_ending() noexcept { return g_has_ended || (is_finalizing() && !t_ends_python); }
 
-InterpreterReleased::InterpreterReleased() : thread_(PyEval_SaveThread()) {
-  work().begin_unless_ending();
+WorkInProgress::WorkInProgress() noexcept { ++g_at_work; }
+
+WorkInProgress::~WorkInProgress() {
+  const int others = --g_at_work;
+  assert(others >= 0);
+  static_cast<void>(others);
+}
+
+InterpreterReleased::InterpreterReleased() {
+  t_ends_python = is_finalizing();
+  work_.emplace();
+  thread_ = PyEval_SaveThread();
 }
 
 InterpreterReleased::~InterpreterReleased() {
-  work().end();
-  work().sleep_if_ending();
-  take_interpreter([this] { PyEval_RestoreThread(thread_); });
+  work_.reset();
+  try {
+    PyEval_RestoreThread(thread_);
+  } catch (const abi::__forced_unwind&) {
+    sleep_for_ever();
+  }
+}
+
+InterpreterHeld::InterpreterHeld() noexcept {
+  try {
+    held_.emplace();
+  } catch (const abi::__forced_unwind&) {
+    --g_at_work;  // this thread's, which comes to no end
+    sleep_for_ever();
+  }
 }
 
 }  // namespace argil::python

@@ -3,39 +3,29 @@
 
 #include <optional>
 
-#include <cxxabi.h>
-#include <unistd.h>
-
 #include "binding.h"
 
 namespace argil::python {
 
-// When a program ends Python waits for no daemon thread. One within Argil would then meet statics
-// that are gone, and one that wants the interpreter back is unwound (pthread_exit), which a
-// destructor lets no one do but by an abort. So the module stops all work first, and a thread whose
-// work is over then sleeps until the process ends, as Python 3.14 has it.
+// When a program ends Python waits for no daemon thread. One that then wants the interpreter is
+// unwound (pthread_exit), which a destructor lets no one do but by an abort; one that is at work
+// meets statics that are gone. So work is stopped once Python ends, its threads sleep until the
+// process is gone, as Python 3.14 has it, and the last that Python does is to wait for that.
 
-/// Has Python call, before it ends, what stops the work of other threads and waits for that, 10 s
-/// at most. After it this thread may work on, others sleep.
+/// Has Python wait for work at its very end, 10 s at most.
 void add_end_of_work(py::module_& module);
 
 /// Whether the program ends, and this thread is another than the one that ends it.
 bool is_ending() noexcept;
 
-/// Runs `take`, which takes the interpreter. Where that is gone the thread sleeps.
-template <class Take>
-void take_interpreter(const Take& take) noexcept {
-  try {
-    take();
-  } catch (const abi::__forced_unwind&) {
-    while (true) pause();
-  }
-}
+/// Whether this thread ends the program, and what others hold is held for ever. Told of one that
+/// has let the interpreter go.
+bool is_ended_here() noexcept;
 
-/// Work of a thread that never has the interpreter, counted while this lives.
+/// Work without the interpreter, counted while this lives.
 class WorkInProgress {
  public:
-  WorkInProgress();
+  WorkInProgress() noexcept;
   ~WorkInProgress();
   WorkInProgress(const WorkInProgress&) = delete;
   WorkInProgress& operator=(const WorkInProgress&) = delete;
@@ -50,15 +40,14 @@ class InterpreterReleased {
   InterpreterReleased& operator=(const InterpreterReleased&) = delete;
 
  private:
+  std::optional<WorkInProgress> work_;
   PyThreadState* thread_;
 };
 
 /// The interpreter is held while this lives, within work that let it go.
 class InterpreterHeld {
  public:
-  InterpreterHeld() {
-    take_interpreter([this] { held_.emplace(); });
-  }
+  InterpreterHeld() noexcept;
   InterpreterHeld(const InterpreterHeld&) = delete;
   InterpreterHeld& operator=(const InterpreterHeld&) = delete;
 

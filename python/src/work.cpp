@@ -58,9 +58,18 @@ WorkLock::Held WorkLock::hold() {
   bool has_it = mutex_.try_lock();
   if (!has_it) {
     const InterpreterReleased released;
-    while (!has_it && watch.goes_on()) has_it = mutex_.try_lock_for(kAskEvery);
+    bool goes_on = true;
+    while (!has_it && goes_on) {
+      has_it = mutex_.try_lock_for(kAskEvery);
+      goes_on = watch.goes_on() && !is_ended_here();
+    }
   }
-  if (!has_it) watch.rethrow();
+  if (!has_it) {
+    watch.rethrow();
+    raise_bad_input(
+        "a thread that the end of the program stopped is at work on this object; join "
+        "threads before");
+  }
   owner_ = std::this_thread::get_id();
   return Held(*this);
 }

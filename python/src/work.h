@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -56,7 +57,7 @@ auto run(Work&& work) {
 
 /// The same of `work()`, which makes something new and cannot be stopped: it runs in a thread of
 /// its own, which Ctrl-C leaves behind to come to its end, and what it makes is let go. Copies what
-/// it refers to.
+/// it refers to. Where no thread can be had this one does it, and hears Ctrl-C after it.
 ///
 /// Cost     beside the work some 50 us.
 template <class Work>
@@ -69,9 +70,11 @@ auto run_apart(Work work) {
   return run([&](const Progress& progress) -> Made {
     const auto apart = std::make_shared<Apart>();
     std::future<Made> made = apart->made.get_future();
-    std::thread([apart, work = std::move(work)] {
-      apart->made.set_value(no_throw("work", work));
-    }).detach();
+    try {
+      std::thread([apart, work] { apart->made.set_value(no_throw("work", work)); }).detach();
+    } catch (const std::system_error&) {
+      return no_throw("work", work);
+    }
     while (made.wait_for(kAskEvery) != std::future_status::ready) {
       if (!progress("work", 0.0)) return Error{ErrorKind::interrupted, "interrupted"};
     }

@@ -190,6 +190,8 @@ case $fault in
       io/CMakeLists.txt 'Forbidden link edge: argil_io -> argil_cli'
     ;;
   UnlicensedLibraryFails)
+    echo '#include <stb_image.h>' >>"$copy/io/src/format/png.cpp"
+    structure_fails 'includes stb_image.h, whose licence is not in cmake/package/copyright'
     echo '#include <thrust/sort.h>' >>"$copy/mesh/src/check/check.cpp"
     structure_fails 'includes thrust, whose licence is not in cmake/package/copyright'
     ;;

@@ -257,4 +257,6 @@ def test_masked_entries_are_no_numbers(ball):
         with pytest.raises(argil.BadInput, match="masked"):
             call(masked)
     with pytest.raises(argil.BadInput, match="masked"):
+        ball.distance([[0, 0, 0], masked[1]])
+    with pytest.raises(argil.BadInput, match="masked"):
         argil.Mesh(np.eye(3), np.ma.masked_array([[0, 1, 2]], mask=[[0, 0, 1]]))

@@ -298,3 +298,70 @@ def test_a_program_ends_while_daemons_are_at_work(seconds):
     ended = subprocess.run([sys.executable, "-c", ENDS_AT_WORK.replace("{seconds}", str(seconds))],
                            capture_output=True, text=True, timeout=120)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "ended\n", "")
+
+
+# What is registered before argil is imported is called after what argil might register.
+HANDLERS_AT_THE_END = """
+import atexit, queue, threading, time
+jobs, clay = queue.Queue(), None
+atexit.register(lambda: print(clay.hash() != 0))
+atexit.register(jobs.join)
+import argil
+
+def work():
+    while True:
+        jobs.get()()
+        jobs.task_done()
+
+def change():
+    while True:
+        clay.offset(0.1)
+        clay.undo()
+
+clay = argil.Clay.ball(20, voxel_mm=0.3)
+for target in (work, change):
+    threading.Thread(target=target, daemon=True).start()
+for _ in range(4):
+    jobs.put(lambda: argil.Clay.ball(10, voxel_mm=0.4).offset(0.5))
+"""
+
+
+def test_daemons_work_on_while_handlers_of_the_end_run():
+    ended = subprocess.run([sys.executable, "-c", HANDLERS_AT_THE_END], capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "True\n", "")
+
+
+# A switch at every chance has forks meet the other thread within a call.
+FORKS = """
+import os, signal, sys, threading, time
+import numpy as np
+import argil
+argil.set_threads(1)
+sys.setswitchinterval(1e-6)
+busy, idle, point = argil.Clay.ball(5, voxel_mm=0.5), argil.Clay.ball(5, voxel_mm=0.5), np.zeros((1, 3))
+going = True
+
+def work():
+    while going:
+        busy.distance(point)
+
+thread = threading.Thread(target=work)
+thread.start()
+until, hung = time.monotonic() + 4, 0
+while time.monotonic() < until:
+    child = os.fork()
+    if child == 0:
+        signal.alarm(5)
+        idle.distance(point)
+        os._exit(0)
+    hung += os.waitpid(child, 0)[1] != 0
+going = False
+thread.join()
+print(hung)
+"""
+
+
+@pytest.mark.skipif(SANITIZED, reason="a fork of a sanitizer's shadow takes a second")
+def test_a_fork_may_use_clays_that_no_thread_works_on():
+    ran = subprocess.run([sys.executable, "-c", FORKS], capture_output=True, text=True, timeout=120)
+    assert (ran.returncode, ran.stdout) == (0, "0\n"), ran.stderr

@@ -54,7 +54,7 @@ enum class Curves {
 inline constexpr char kNoKey = '\x01';
 
 /// What there is to say of an action: its row in argil/engine/action_rows.h.
-struct ActionInfo {
+struct ActionInfo {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of use
   Action action;
   const char* name;  ///< in scripts, as on the command line
   ActionKind kind;
