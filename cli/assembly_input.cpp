@@ -32,7 +32,7 @@ Result<io::ReadAssembly> open_assembly(const std::filesystem::path& file,
   auto read = io::read_assembly(file, options.frame());
   if (!read) return read;
   print_notes(io::frame_doubts(file, read.value().frame));
-  for (std::string& note : read.value().notes) note = "'" + file.string() + "': " + note;
+  for (std::string& note : read.value().notes) note.insert(0, "'" + file.string() + "': ");
   print_notes(read.value().notes);
   return read;
 }
