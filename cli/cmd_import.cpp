@@ -307,7 +307,8 @@ void PartsImport::describe(std::size_t part, const ImportResult& imported, doubl
   json.update(import_json(prepared, imported.report, imported.clay, found, seconds));
   json["doubts"] = notes;
   outcome_.json["projects"].push_back(std::move(json));
-  for (const std::string& note : notes) print_notes({"'" + name + "': " + note});
+  for (std::string& note : notes) note.insert(0, "'" + name + "': ");
+  print_notes(notes);
   outcome_.text += "'" + name + "': volume " + number(found.volume_mm3) + " mm3\n" +
                    import_changes(prepared.closing, imported.report, found) + "  saved '" +
                    files_[part].string() + "'\n";
@@ -374,13 +375,14 @@ Result<Outcome> import_pieces(const ImportOptions& options, const io::PreparedPa
       return error;
     }
     const std::string& name = names[n];
-    const auto [found, notes] = compare(part, imported.value(), voxel_mm);
+    auto [found, notes] = compare(part, imported.value(), voxel_mm);
     Json json = {{"name", name}};
     json.update(
         import_json(part, imported.value().report, imported.value().clay, found, watch.seconds()));
     json["doubts"] = notes;
     outcome.json["pieces"].push_back(std::move(json));
-    for (const std::string& note : notes) print_notes({"'" + name + "': " + note});
+    for (std::string& note : notes) note.insert(0, "'" + name + "': ");
+    print_notes(notes);
     outcome.text += "'" + name + "': volume " + number(found.volume_mm3) + " mm3\n" +
                     import_changes(part.closing, imported.value().report, found);
     pieces.push_back({{.name = name}, std::move(imported.value().clay)});
