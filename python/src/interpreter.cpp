@@ -6,7 +6,6 @@
 #include <chrono>
 #include <thread>
 
-#include <cxxabi.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -47,11 +46,8 @@ void wait_for_work() noexcept {
 
 void add_end_of_work(py::module_&) {
   g_has_ended = false;  // by an interpreter before this one
-  static const bool is_added = [] {
-    pthread_atfork(nullptr, nullptr, [] { g_at_work = 0; });  // a fork has none of the threads
-    return true;
-  }();
-  assert(is_added);
+  [[maybe_unused]] static const int added =
+      pthread_atfork(nullptr, nullptr, [] { g_at_work = 0; });  // a fork has none of the threads
   if (Py_AtExit(&wait_for_work) != 0)
     throw py::import_error("Python has no place for what ends argil's work");
 }
@@ -63,9 +59,8 @@ bool is_ending() noexcept { return g_has_ended || (is_finalizing() && !t_ends_py
 WorkInProgress::WorkInProgress() noexcept { ++g_at_work; }
 
 WorkInProgress::~WorkInProgress() {
-  const int others = --g_at_work;
+  [[maybe_unused]] const int others = --g_at_work;
   assert(others >= 0);
-  static_cast<void>(others);
 }
 
 InterpreterReleased::InterpreterReleased() {
@@ -74,22 +69,25 @@ InterpreterReleased::InterpreterReleased() {
   thread_ = PyEval_SaveThread();
 }
 
+// Of C, what takes the interpreter throws nothing: all that comes is the unwinding.
 InterpreterReleased::~InterpreterReleased() {
   work_.reset();
   try {
     PyEval_RestoreThread(thread_);
-  } catch (const abi::__forced_unwind&) {
+  } catch (...) {
     sleep_for_ever();
   }
 }
 
 InterpreterHeld::InterpreterHeld() noexcept {
   try {
-    held_.emplace();
-  } catch (const abi::__forced_unwind&) {
+    before_ = PyGILState_Ensure();
+  } catch (...) {
     --g_at_work;  // this thread's, which comes to no end
     sleep_for_ever();
   }
 }
+
+InterpreterHeld::~InterpreterHeld() { PyGILState_Release(before_); }
 
 }  // namespace argil::python

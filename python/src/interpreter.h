@@ -48,11 +48,12 @@ class InterpreterReleased {
 class InterpreterHeld {
  public:
   InterpreterHeld() noexcept;
+  ~InterpreterHeld();
   InterpreterHeld(const InterpreterHeld&) = delete;
   InterpreterHeld& operator=(const InterpreterHeld&) = delete;
 
  private:
-  std::optional<py::gil_scoped_acquire> held_;
+  PyGILState_STATE before_;
 };
 
 }  // namespace argil::python
