@@ -44,7 +44,7 @@ void wait_for_work() noexcept {
 
 }  // namespace
 
-void add_end_of_work(py::module_&) {
+void add_end_of_work() {
   g_has_ended = false;  // by an interpreter before this one
   [[maybe_unused]] static const int added =
       pthread_atfork(nullptr, nullptr, [] { g_at_work = 0; });  // a fork has none of the threads

@@ -13,7 +13,7 @@ namespace argil::python {
 // process is gone, as Python 3.14 has it, and the last that Python does is to wait for that.
 
 /// Has Python wait for work at its very end, 10 s at most.
-void add_end_of_work(py::module_& module);
+void add_end_of_work();
 
 /// Whether the program ends, and this thread is another than the one that ends it.
 bool is_ending() noexcept;

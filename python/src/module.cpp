@@ -34,7 +34,7 @@ PYBIND11_MODULE(_native, module) {
   check_numpy();
   module.attr("__version__") = ARGIL_VERSION;
   argil::python::add_errors(module);
-  argil::python::add_end_of_work(module);
+  argil::python::add_end_of_work();
   argil::python::add_threads(module);
   argil::python::add_meshes(module);
   argil::python::add_clay(module);

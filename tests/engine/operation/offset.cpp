@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How near the surface of an offset block is to where it belongs, everywhere.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iostream>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -43,6 +46,24 @@ TEST(OperationOffset, HasRoundEdgesWhereverTheyLieAmongTheLeaves) {
           << size.x << " x " << size.y << " x " << size.z << " by " << offset;
     }
   }
+}
+
+TEST(OperationOffset, HasRoundEdgesOfBlocksOfAnySize) {
+  std::mt19937 dice(7);  // the standard says what it gives, not what distributions do with it
+  const auto between = [&dice](double low, double high) {
+    return low + (high - low) * static_cast<double>(dice()) / 4294967296.0;
+  };
+  double most = 0.0;
+  for (int n = 0; n < effort(6, 72); ++n) {
+    const double voxel = std::array{0.2, 0.4, 0.7}[static_cast<std::size_t>(n) % 3];
+    const double offset = std::array{1.75, 5.0, 10.0}[static_cast<std::size_t>(n) / 3 % 3] * voxel;
+    const Vec3 size{between(20.0, 100.0) * voxel, between(20.0, 60.0) * voxel,
+                    between(10.0, 50.0) * voxel};
+    const double off = farthest_off(size, voxel, offset) / voxel;
+    EXPECT_LT(off, 0.75) << size.x << " x " << size.y << " x " << size.z << " by " << offset;
+    most = std::max(most, off);
+  }
+  std::cout << "farthest of all vertices " << most << " voxels off\n";
 }
 
 /// Where a level ends the surface may be beyond: what lies beside it rises no less than it should.
