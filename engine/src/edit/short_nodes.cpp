@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -25,20 +26,50 @@ constexpr float kLeastSlope = 0.8F;
 /// nothing: a fiftieth.
 constexpr float kLeastRise = 0.2F;
 
-/// A leaf and what is beside it: where the level has no leaf, what coarser ones say, since the
-/// surface may be there.
-void gather_with_coarser(const LevelStack& stack, int level, const Coord& origin,
-                         HaloBlock& block) {
+/// Which of a leaf's nodes beside each leaf of kHaloOffsets, for the first all of them, lie on a
+/// side and within the band.
+std::array<bool, kHaloLeaves> banded_beside(const float* values, float side, float band) {
+  std::array<bool, kHaloLeaves> any{};
+  for (std::size_t row = 0; row < kLeafRows; ++row) {
+    unsigned bits = 0;
+    for (unsigned z = 0; z < kLeafSide; ++z) {
+      const float here = side * values[kLeafSide * row + z];
+      bits |= ((here > 0.0F) & (here < band) ? 1U : 0U) << z;
+    }
+    if (bits == 0) continue;
+    const std::size_t x = row / kLeafSide;
+    const std::size_t y = row % kLeafSide;
+    const std::array<bool, kHaloLeaves> here{true,
+                                             x == 0,
+                                             x == kLeafSide - 1,
+                                             y == 0,
+                                             y == kLeafSide - 1,
+                                             (bits & 1U) != 0,
+                                             (bits >> (kLeafSide - 1)) != 0};
+    for (std::size_t n = 0; n < kHaloLeaves; ++n) any[n] |= here[n];
+  }
+  return any;
+}
+
+/// A leaf and what is beside it, as far as its nodes on the job's side read it: where the level has
+/// no leaf, what coarser ones say, since the surface may be there. False where no node does.
+bool gather_with_coarser(const LevelStack& stack, int level, const Coord& origin,
+                         const UpwindJob& job, HaloBlock& block) {
   LeafFinder leaves(stack, level);
+  const float* own = leaves.values(origin);
+  assert(own != nullptr);
+  const std::array<bool, kHaloLeaves> is_read = banded_beside(own, job.side, job.band);
+  if (!is_read[0]) return false;
   std::array<LeafValues, kHaloLeaves> interpolated;
   std::array<const float*, kHaloLeaves> around{};
   for_each_halo_leaf(origin, [&](std::size_t n, const Coord& at) {
-    around[n] = leaves.values(at);
+    around[n] = is_read[n] ? leaves.values(at) : own;
     if (around[n] != nullptr) return;
     prolong_leaf(stack, level, at, interpolated[n]);
     around[n] = interpolated[n].data();
   });
   gather_halo(around, block);
+  return true;
 }
 
 /// Bits of a leaf's nodes: word x, bit 8 y + z.
@@ -146,7 +177,7 @@ std::vector<ShortNodes> find_short_nodes(const LevelStack& stack, int level, boo
   std::vector<std::uint8_t> is_told(origins.size(), 0);
   for_each_leaf(origins.size(), [&](std::size_t n) {
     HaloBlock block;
-    gather_with_coarser(stack, level, origins[n], block);
+    if (!gather_with_coarser(stack, level, origins[n], job, block)) return;
     UpwindRows rows;
     row_loops().find_upwind(block, job, rows);
     is_told[n] = bits_from(rows.told) != NodeBits{} ? 1 : 0;

@@ -122,29 +122,31 @@ class SpokenFor {
         finer_(stack, std::max(level - 1, 0)),
         is_finest_(is_finest || level == 0) {}
 
+  enum class Part { none, some, all };
+
   /// Whether some point of the strip around a place, in nodes of the level, is.
-  bool near(const Vec3& place) {
+  bool near(const Vec3& place) { return within(place, place) != Part::none; }
+
+  /// How much is of the octants that the strip around a box meets.
+  Part within(const Vec3& lowest, const Vec3& highest) {
     const auto octant = [](double at) { return static_cast<int>(std::floor(at / kOctant)); };
     const Vec3 strip{kStripVoxels, kStripVoxels, kStripVoxels};
-    const Vec3 low = place - strip;
-    const Vec3 high = place + strip;
+    const Vec3 low = lowest - strip;
+    const Vec3 high = highest + strip;
+    bool any = false;
+    bool all = true;
     for (int x = octant(low.x); x <= octant(high.x); ++x) {
       for (int y = octant(low.y); y <= octant(high.y); ++y) {
         for (int z = octant(low.z); z <= octant(high.z); ++z) {
           const Coord at(x, y, z);
-          if (own_.has_leaf(at << 2) && (is_finest_ || !finer_.has_leaf(at << 3))) return true;
+          const bool is = own_.has_leaf(at << 2) && (is_finest_ || !finer_.has_leaf(at << 3));
+          any = any || is;
+          all = all && is;
+          if (any && !all) return Part::some;
         }
       }
     }
-    return false;
-  }
-
-  /// Whether all points that feet of a stored leaf stand for are.
-  bool all_around(const Coord& origin) {
-    for (int n = 0; n < 27; ++n) {
-      if (!own_.has_leaf(origin + (Coord(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1) << 3))) return false;
-    }
-    return is_finest_ || finer_.leaves_of_64((origin << 1).offsetBy(-kLeafSide)) == 0;
+    return any ? Part::all : Part::none;
   }
 
  private:
@@ -179,6 +181,7 @@ class LevelFeet {
   };
   std::optional<Cell> cell_at(const Vec3& place);
   bool is_astray(const Vec3& surface, const Vec3& normal, double side);
+  SpokenFor::Part below(const Coord& origin, const PointBox& surface_mm);
 
   LevelReader reader_;
   int level_;
@@ -229,6 +232,19 @@ bool LevelFeet::is_astray(const Vec3& surface, const Vec3& normal, double side) 
   return half_way && side * dot(half_way->slope, normal) < kLeastCosine * length(half_way->slope);
 }
 
+/// How much of what lies below the feet of a leaf the level speaks for.
+SpokenFor::Part LevelFeet::below(const Coord& origin, const PointBox& surface_mm) {
+  constexpr double kFloatRounding = 1e-3;  // of places, in nodes
+  Box3 box;
+  for (const auto& corner : {surface_mm.low, surface_mm.high}) {
+    const Vec3 off{static_cast<double>(corner[0]), static_cast<double>(corner[1]),
+                   static_cast<double>(corner[2])};
+    box.include(as_vec3(origin) + off / voxel_);
+  }
+  const Vec3 wider{kFloatRounding, kFloatRounding, kFloatRounding};
+  return spoken_for_.within(box.min - wider, box.max + wider);
+}
+
 SideFeet LevelFeet::of_leaf(const Coord& origin) {
   SideFeet out;
   if (reader_.look(level_, origin).is_far) return out;
@@ -237,10 +253,12 @@ SideFeet LevelFeet::of_leaf(const Coord& origin) {
   const bool is_average = level_ > 0 && has_child(reader_.stack(), level_, origin);
   LeafLayers layers = find_layers(values, voxel_, is_average);
   if (layers[0].is_empty() && layers[1].is_empty()) return out;
-  const bool is_whole = spoken_for_.all_around(origin);
   for (std::size_t side = 0; side < 2; ++side) {
     LayerFeet& layer = layers[side];
     if (layer.is_empty() || !sides_[side]) continue;
+    const SpokenFor::Part spoken = below(origin, layer.all_surface);
+    if (spoken == SpokenFor::Part::none) continue;
+    const bool is_whole = spoken == SpokenFor::Part::all;
     out[side].level = level_;
     out[side].origin_mm =
         rotate(placement_.orientation, node_mm(origin, voxel_)) + placement_.position_mm;

@@ -109,11 +109,7 @@ bool MovedLevel::fill(const Coord& origin, LeafValues& out, bool& detail) const 
   for (std::size_t side = 0; side < 2; ++side) {
     if (is_asked_[side]) ask(side, voxel, scratch, told[side]);
   }
-  const auto band = static_cast<float>(kHalfWidthVoxels * voxel_mm_);
-  const auto offset = static_cast<float>(offset_mm_);
-  for (std::size_t n = 0; n < kLeafNodes; ++n) {
-    out[n] = std::clamp(value_of(voxel, scratch.near[n], told, n) - offset, -band, band) + 0.0F;
-  }
+  join(voxel, scratch.near, told, out);
   return true;
 }
 
@@ -271,20 +267,21 @@ void MovedLevel::ask_block(std::size_t side, FeetTree::Found& found, const std::
 }
 
 /// Joins what the clay says, at a level of these voxels, and what the feet say.
-float MovedLevel::value_of(double voxel, float near, const std::array<LeafValues, 2>& told,
-                           std::size_t node) const {
-  const auto low = static_cast<float>(kOfLevelVoxels * voxel);
-  const auto high = static_cast<float>(kOfFeetVoxels * voxel);
-  const auto stretch = static_cast<float>(kMostStretch);
-  const float size = std::abs(near);
-  const std::size_t side = near < 0.0F ? 1 : 0;
-  if (size <= low || !is_asked_[side]) return near;
-  float far = told[side][node];
-  if (size < static_cast<float>(kKnownVoxels * voxel)) {
-    far = far < limit_mm_ ? std::clamp(far, size / stretch, size * stretch) : size;
+void MovedLevel::join(double voxel, const LeafValues& near, const std::array<LeafValues, 2>& told,
+                      LeafValues& out) const {
+  JoinJob job{};
+  job.near = near.data();
+  for (std::size_t side = 0; side < 2; ++side) {
+    job.told[side] = is_asked_[side] ? told[side].data() : nullptr;
   }
-  const float share = std::clamp((high - size) / (high - low), 0.0F, 1.0F);
-  return std::copysign(std::max(share * size + (1.0F - share) * far, low), near);
+  job.low = static_cast<float>(kOfLevelVoxels * voxel);
+  job.high = static_cast<float>(kOfFeetVoxels * voxel);
+  job.known = static_cast<float>(kKnownVoxels * voxel);
+  job.stretch = static_cast<float>(kMostStretch);
+  job.limit = limit_mm_;
+  job.offset = static_cast<float>(offset_mm_);
+  job.band = static_cast<float>(kHalfWidthVoxels * voxel_mm_);
+  row_loops().join_told(job, out.data());
 }
 
 }  // namespace argil

@@ -75,8 +75,8 @@ class MovedLevel {
   void ask(std::size_t side, double voxel, Scratch& scratch, LeafValues& distance) const;
   void ask_block(std::size_t side, FeetTree::Found& found, const std::array<int, 3>& low,
                  std::array<float, LayerJob::kNodes>& told) const;
-  float value_of(double voxel, float near, const std::array<LeafValues, 2>& told,
-                 std::size_t node) const;
+  void join(double voxel, const LeafValues& near, const std::array<LeafValues, 2>& told,
+            LeafValues& out) const;
 
   const LevelStack& stack_;
   Placement placement_;

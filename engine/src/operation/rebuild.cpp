@@ -69,7 +69,7 @@ class Rebuilder {
   Origins top_origins(const Box3& box) const;
   Origins octants(int level) const;
   enum class Keep { banded, needed };
-  bool fill(const MovedLevel& moved, int level, const Origins& origins, Keep keep);
+  const MovedLevel* moved(int level);
   bool fill(int level, const Origins& origins, Keep keep);
   bool balance();
   void drop_empty(int level);
@@ -79,6 +79,7 @@ class Rebuilder {
   const Progress& progress_;
   double tolerance_mm_;
   std::unique_ptr<LevelStack> stack_;
+  std::vector<std::unique_ptr<MovedLevel>> moved_;  ///< of the levels that were filled
 };
 
 Result<Box3> Rebuilder::checked_bounds() const {
@@ -117,9 +118,22 @@ Origins Rebuilder::octants(int level) const {
   return origins;
 }
 
+/// Kept, since balance() may fill a level again. Null: asked to stop.
+const MovedLevel* Rebuilder::moved(int level) {
+  auto& kept = moved_[static_cast<std::size_t>(level)];
+  if (kept != nullptr) return kept.get();
+  const double voxel = stack_->voxel_mm(level);
+  auto feet = placed_feet(levels_of(source_.clay), MovedLevel::wanted(source_, voxel), progress_);
+  if (feet) kept = std::make_unique<MovedLevel>(source_, voxel, std::move(*feet));
+  return kept.get();
+}
+
 /// Measures the leaves and keeps those asked for. False: asked to stop.
-bool Rebuilder::fill(const MovedLevel& moved, int level, const Origins& origins, Keep keep) {
+bool Rebuilder::fill(int level, const Origins& origins, Keep keep) {
   assert(stack_->is_level(level));
+  if (origins.empty()) return true;
+  const MovedLevel* const moved = this->moved(level);
+  if (moved == nullptr) return false;
   constexpr std::size_t kLeavesAtOnce = 4096;
   const float band = stack_->band_mm(level);
   for (std::size_t begin = 0; begin < origins.size(); begin += kLeavesAtOnce) {
@@ -131,7 +145,7 @@ bool Rebuilder::fill(const MovedLevel& moved, int level, const Origins& origins,
     for_each_leaf(count, [&](std::size_t n) {
       const Coord& origin = origins[begin + n];
       bool has_detail = false;
-      if (!moved.fill(origin, values[n], has_detail)) return;
+      if (!moved->fill(origin, values[n], has_detail)) return;
       if (!has_band(values[n].data(), band)) return;
       const bool is_kept =
           keep == Keep::banded || has_detail ||
@@ -146,16 +160,9 @@ bool Rebuilder::fill(const MovedLevel& moved, int level, const Origins& origins,
   return true;
 }
 
-bool Rebuilder::fill(int level, const Origins& origins, Keep keep) {
-  if (origins.empty()) return true;
-  const double voxel = stack_->voxel_mm(level);
-  auto feet = placed_feet(levels_of(source_.clay), MovedLevel::wanted(source_, voxel), progress_);
-  if (!feet) return false;
-  return fill(MovedLevel(source_, voxel, std::move(*feet)), level, origins, keep);
-}
-
 /// Adds the coarser leaves that finer ones require.
 bool Rebuilder::balance() {
+  moved_[0].reset();  // the most of them, and nothing is finer
   for (int level = 0; level < stack_->top(); ++level) {
     Origins required;
     for (const Coord& origin : stack_->sorted_origins(level)) {
@@ -167,6 +174,7 @@ bool Rebuilder::balance() {
     required.erase(std::unique(required.begin(), required.end()), required.end());
     if (!fill(level + 1, required, Keep::banded)) return false;
   }
+  moved_.clear();
   return true;
 }
 
@@ -189,6 +197,7 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
   const int levels =
       target_.levels > 0 ? target_.levels : levels_for(std::max({size.x, size.y, size.z}), voxel);
   stack_ = std::make_unique<LevelStack>(voxel, levels);
+  moved_.resize(static_cast<std::size_t>(levels));
   if (box.value().empty()) return std::move(stack_);
   const int top = stack_->top();
   if (!fill(top, top_origins(box.value()), Keep::banded)) return interrupted;

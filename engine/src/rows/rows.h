@@ -367,6 +367,18 @@ struct UpwindRows {
   unsigned char by[6][kLeafRows];  ///< which are told by the node before them along x, behind, ...
 };
 
+/// What the clay says and what feet say, in one length, one after the other by its size; see
+/// operation/moved_level.h.
+struct JoinJob {
+  const float* near;     ///< what the clay says at a leaf's nodes
+  const float* told[2];  ///< what feet say outside and inside, null where
+                         ///< none are asked; of nodes up to `low` any number
+  float low, high;       ///< up to `low` the clay is right, from `high` on feet are
+  float known, stretch;  ///< up to `known` feet differ from the clay by `stretch` at most
+  float limit;           ///< what feet say that are not there
+  float offset, band;    ///< of what comes out
+};
+
 /// The loops of one instruction set. `out` is a leaf's nodes, and part of no argument.
 struct RowLoops {
   /// The leaf's nodes with those next to a sign change measured, as sweep_distances() says, where
@@ -468,6 +480,8 @@ struct RowLoops {
   /// By which of their neighbours nodes on one side are told, and which too slowly. What is missing
   /// is NaN and tells none.
   void (*find_upwind)(const HaloBlock& from, const UpwindJob& job, UpwindRows& out) noexcept;
+  /// The distances of a leaf's nodes, joined, less the offset, within the band.
+  void (*join_told)(const JoinJob& job, float* out) noexcept;
 };
 
 /// Those of the fastest set that may be used here (best_simd()).

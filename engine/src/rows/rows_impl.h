@@ -32,6 +32,7 @@ constexpr int kStride[3] = {HaloBlock::kSide * HaloBlock::kRow, HaloBlock::kRow,
 
 // After those whose functions they use.
 #include "rows/deepen_impl.h"
+#include "rows/join_impl.h"
 #include "rows/triangle_impl.h"
 
 }  // namespace
@@ -64,6 +65,7 @@ const RowLoops kRowLoops{seed,
                          lower_to_layer,
                          enter_boxes,
                          meet_triangles,
-                         find_upwind};
+                         find_upwind,
+                         join_told};
 
 }  // namespace argil::ARGIL_ROWS_SET
