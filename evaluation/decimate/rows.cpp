@@ -122,6 +122,8 @@ const char* decimator_name(Decimator decimator) {
       return "openmesh";
     case Decimator::cgal:
       return "cgal";
+    case Decimator::meshoptimizer:
+      return "meshoptimizer";
     case Decimator::none:
       break;
   }
@@ -135,6 +137,12 @@ Result<TriangleMesh> decimated(Decimator decimator, const Clay& clay, const Tria
     auto made = io::decimate(surface, clay, {triangles, 0.0});
     if (!made) return made.error();
     return std::move(made.value().mesh);
+  }
+  if (decimator == Decimator::meshoptimizer) {
+    if (has_meshoptimizer()) return meshoptimizer_decimated(surface, triangles);
+    return Error{ErrorKind::bad_input,
+                 "Argil was built without meshoptimizer; remedy: install libmeshoptimizer-dev, and "
+                 "build it again"};
   }
   auto made = decimator == Decimator::openmesh ? openmesh_decimated(surface, triangles)
                                                : cgal_decimated(surface, triangles);

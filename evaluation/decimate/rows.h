@@ -17,11 +17,11 @@
 namespace argil::evaluation {
 
 /// What removes triangles; `none`: the whole surface as it was.
-enum class Decimator { argil, openmesh, cgal, none };
+enum class Decimator { argil, openmesh, cgal, meshoptimizer, none };
 const char* decimator_name(Decimator decimator);
 
 /// What a decimator, but none, leaves of the whole surface of a clay: `triangles` or a few fewer.
-/// Errors  bad_input where it cannot.
+/// Errors  bad_input where it cannot, or is not there.
 Result<TriangleMesh> decimated(Decimator decimator, const Clay& clay, const TriangleMesh& surface,
                                std::int64_t triangles);
 

@@ -41,11 +41,12 @@ OperationsOptions options_of(const OperationsChartOptions& chart) {
 std::string operations_summary(const OperationsResult& result) {
   std::string text =
       "errors in finest voxels\n"
-      "operation   body          by         million   vertices    cpu s       rms       p99       "
+      "operation   body          by             million   vertices    cpu s       rms       p99    "
+      "   "
       "max\n";
   char line[200];
   for (const OperationRow& row : result.rows) {
-    std::snprintf(line, sizeof line, "%-11s %-13s %-9s %8g %10lld %8.3f %9.2g %9.2g %9.2g\n",
+    std::snprintf(line, sizeof line, "%-11s %-13s %-13s %8g %10lld %8.3f %9.2g %9.2g %9.2g\n",
                   row.operation.c_str(), row.body.c_str(), row.method.c_str(), row.million,
                   static_cast<long long>(row.vertices), row.cpu_s, row.error.rms,
                   row.error.p99.value_or(row.error.max), row.error.max);

@@ -21,7 +21,9 @@ namespace {
 constexpr double kLeftShare = 0.1;  // of the triangles
 
 /// The largest body, in million vertices, for which one ends in a minute or so.
-double most_million(Decimator decimator) { return decimator == Decimator::argil ? 2.5 : 0.6; }
+double most_million(Decimator decimator) {
+  return decimator == Decimator::argil || decimator == Decimator::meshoptimizer ? 10.0 : 0.6;
+}
 
 class MeshesOfClay {
  public:
@@ -108,7 +110,8 @@ Result<void> measure_meshes_of_clay(const WorkedBody& body, int most_runs,
   TriangleMesh surface = extract_surface(clay);
   surface.normals.clear();
   MeshesOfClay meshes(body, clay, most_runs, result);
-  for (const Decimator decimator : {Decimator::argil, Decimator::openmesh, Decimator::cgal}) {
+  for (const Decimator decimator :
+       {Decimator::argil, Decimator::openmesh, Decimator::cgal, Decimator::meshoptimizer}) {
     if (auto done = meshes.decimate(decimator, surface); !done) return done;
   }
   for (const char* ending : {"stl", "3mf"}) {

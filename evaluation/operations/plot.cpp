@@ -27,7 +27,8 @@ constexpr std::array kMethodLooks{
     MethodLook{"openvdb", "OpenVDB", "#e69f00", 5, 4},
     MethodLook{"cgal", "CGAL: wrap, corefinement, edge collapse", "#009e73", 9, 8},
     MethodLook{"blender", "Blender: voxel remesh, exact Boolean", "#cc79a7", 11, 10},
-    MethodLook{"openmesh", "OpenMesh quadrics", "#d55e00", 13, 12}};
+    MethodLook{"openmesh", "OpenMesh quadrics", "#d55e00", 13, 12},
+    MethodLook{"meshoptimizer", "meshoptimizer", "#000000", 3, 2}};
 
 struct OperationPanel {
   const char* operation;

@@ -19,4 +19,9 @@ std::optional<TriangleMesh> openmesh_decimated(const TriangleMesh& surface, std:
 /// triangles from turning over.
 std::optional<TriangleMesh> cgal_decimated(const TriangleMesh& surface, std::int64_t triangles);
 
+/// meshoptimizer's meshopt_simplify, which works in floats and lets vertices stay where they are.
+/// Only where Argil was built with it; the surface needs not be a two-manifold.
+TriangleMesh meshoptimizer_decimated(const TriangleMesh& surface, std::int64_t triangles);
+bool has_meshoptimizer() noexcept;
+
 }  // namespace argil::evaluation

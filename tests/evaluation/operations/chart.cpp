@@ -103,17 +103,31 @@ void expect_rivals_as_known(const OperationRows& rows) {
   }
 }
 
+/// Of what is skipped, that it is Blender, and meshoptimizer where Argil was built without it: then
+/// as many rows are left out as there are bodies.
+std::size_t expect_named_where_it_is_not_there(const nlohmann::json& skipped,
+                                               const OperationRows& rows) {
+  const auto lines = skipped.get<std::vector<std::string>>();
+  if (rows.count(operation_label("wavy ball", "decimate", "meshoptimizer")) == 1) {
+    EXPECT_THAT(lines, ElementsAre(HasSubstr("blender is not installed")));
+    return 0;
+  }
+  EXPECT_THAT(lines, ElementsAre(HasSubstr("blender is not installed"),
+                                 HasSubstr("built without meshoptimizer"),
+                                 HasSubstr("built without meshoptimizer")));
+  return 2;
+}
+
 TEST(ChartOperations, OursStaysWithinItsBoundsAndRivalsAreThere) {
   const ScratchFolder scratch;
   const Setting path("PATH", (scratch / "nothing").string());
   const Ended run = tiny_operations(scratch / "charts");
   ASSERT_EQ(run.status, 0) << run.err;
   const nlohmann::json report = run.json();
-  EXPECT_THAT(report["skipped"].get<std::vector<std::string>>(),
-              ElementsAre(HasSubstr("blender is not installed")));
   const OperationRows rows = operation_rows(scratch / "charts");
-  // Three with level sets, CGAL's wrap and union, three that remove triangles, two files.
-  EXPECT_THAT(rows, SizeIs(2 * (3 * kLevelSetTasks.size() + 2 + 3 + 2)));
+  const std::size_t left_out = expect_named_where_it_is_not_there(report["skipped"], rows);
+  // Three with level sets, CGAL's wrap and union, four that remove triangles, two files.
+  EXPECT_THAT(rows, SizeIs(2 * (3 * kLevelSetTasks.size() + 2 + 4 + 2) - left_out));
   EXPECT_EQ(rows.size(), report["rows"].get<std::size_t>());
   expect_ours_exact(rows);
   expect_fine_ahead(rows);
