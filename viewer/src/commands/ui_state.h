@@ -18,6 +18,7 @@
 
 #include "commands/brush.h"
 #include "commands/import_choice.h"
+#include "commands/key_map.h"
 #include "commands/measure.h"
 #include "commands/outline.h"
 #include "commands/search_choice.h"
@@ -62,6 +63,7 @@ struct PanelState {
   bool has_history = false;
   bool has_messages = false;
   bool has_help = false;
+  bool has_keys = false;
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
@@ -187,6 +189,15 @@ struct PieceChoice {
   std::optional<Camera::Pixel> refused_at;
 };
 
+/// What the panel of keys waits for.
+struct KeyChoice {
+  std::optional<KeyAim> waiting;   ///< for a key
+  std::optional<KeyChord> wanted;  ///< by it, which something else has: it is asked about
+  std::string refused;             ///< why the last key could not be given; "" it could
+  bool asks_to_reset = false;      ///< all of them
+  std::string filter;
+};
+
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
 
@@ -214,6 +225,8 @@ struct UiState {
   bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
   MeasureChoice measures;
+  KeyMap keys;
+  KeyChoice key_choice;
   SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn

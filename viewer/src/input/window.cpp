@@ -14,7 +14,15 @@ namespace {
 
 static_assert(kKeyEscape == GLFW_KEY_ESCAPE && kKeyHome == GLFW_KEY_HOME &&
               kKeyF12 == GLFW_KEY_F12 && kKeyPad9 == GLFW_KEY_KP_9 &&
-              kKeyPadPeriod == GLFW_KEY_KP_DECIMAL && kKeyPadEnter == GLFW_KEY_KP_ENTER);
+              kKeyPadPeriod == GLFW_KEY_KP_DECIMAL && kKeyPadEnter == GLFW_KEY_KP_ENTER &&
+              kKeyApostrophe == GLFW_KEY_APOSTROPHE && kKeyComma == GLFW_KEY_COMMA &&
+              kKeyMinus == GLFW_KEY_MINUS && kKeySlash == GLFW_KEY_SLASH &&
+              kKeySemicolon == GLFW_KEY_SEMICOLON && kKeyEqual == GLFW_KEY_EQUAL &&
+              kKeyBackslash == GLFW_KEY_BACKSLASH && kKeyGrave == GLFW_KEY_GRAVE_ACCENT &&
+              kKeyInsert == GLFW_KEY_INSERT && kKeyPageUp == GLFW_KEY_PAGE_UP &&
+              kKeyPageDown == GLFW_KEY_PAGE_DOWN && kKeyPause == GLFW_KEY_PAUSE &&
+              kKeyPadDivide == GLFW_KEY_KP_DIVIDE && kKeyPadTimes == GLFW_KEY_KP_MULTIPLY &&
+              kKeyPadMinus == GLFW_KEY_KP_SUBTRACT && kKeyPadPlus == GLFW_KEY_KP_ADD);
 
 /// The Window that GLFW calls back for.
 Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
