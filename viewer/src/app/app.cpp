@@ -14,6 +14,7 @@
 #include "argil/io/safe_file.h"
 
 #include "base/text.h"
+#include "commands/brush_preset.h"
 #include "commands/command.h"
 #include "commands/measure.h"
 #include "commands/measure_marks.h"
@@ -376,6 +377,7 @@ void App::take_events(const std::vector<InputEvent>& events) {
 void App::take_dropped(const std::vector<std::string>& files) {
   if (open_dialog(ui_) != Dialog::none || files.empty()) return;
   const fs::path file = files.front();
+  if (looks_like_preset(file)) return take_preset(file);
   if (extension_of(file) != ".png") return open_file(file, ui_, document_);
   const auto added = add_alpha(home_, file);
   if (!added) return tell(notice_of(added.error()));
@@ -664,6 +666,7 @@ void App::draw_panels() {
   draw_history(ui_, document_);
   draw_print(ui_, document_);
   draw_pieces(ui_, document_);
+  draw_presets(ui_);
   draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);

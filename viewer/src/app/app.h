@@ -92,6 +92,8 @@ class App {
   void read_habits();
   void keep_settings();
   void keep_keys();
+  void keep_presets();
+  void take_preset(const std::filesystem::path& file);
   void note_measurements();
   void tell(Notice notice);
 

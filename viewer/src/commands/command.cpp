@@ -157,6 +157,10 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::help:
       ui.panels.has_help = !ui.panels.has_help;
       return true;
+    case Command::presets:
+      ui.panels.has_presets = !ui.panels.has_presets;
+      ui.preset_choice.waits_for_key = false;
+      return true;
     case Command::keys:
       ui.panels.has_keys = !ui.panels.has_keys;
       ui.key_choice = {};

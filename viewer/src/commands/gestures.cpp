@@ -13,6 +13,7 @@
 #include "commands/key_choice.h"
 #include "commands/measure.h"
 #include "commands/mouse_habit.h"
+#include "commands/preset_choice.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -98,7 +99,7 @@ void Gestures::note_pressure(double pressure) {
 // ---- keys --------------------------------------------------------------------------------------
 
 void Gestures::key(const InputEvent& event, bool is_asked) {
-  if (!is_asked && key_choice_takes(event, ui_)) return;
+  if (!is_asked && (key_choice_takes(event, ui_) || preset_key_takes(event, ui_))) return;
   if (event.key == kKeySpace) {
     if (!event.is_repeat) perform(Command::emergency_stop, ui_, document_);
     return;
@@ -133,7 +134,11 @@ void Gestures::do_key(const InputEvent& event) {
   // A digit that was given to something is that; else it may stand for one of the numpad.
   auto aim = ui_.keys.aim_of({event.key, event.modifiers});
   if (!aim) aim = ui_.keys.aim_of({key_meant(event.key, ui_.settings), event.modifiers});
-  if (!aim) return;
+  if (!aim) {
+    const BrushPreset* preset = preset_of({event.key, event.modifiers}, ui_);
+    if (preset != nullptr) choose_preset(*preset, ui_);
+    return;
+  }
   if (const auto* tool = std::get_if<const ToolInfo*>(&*aim)) return choose_tool(**tool, ui_);
   const Command command = std::get<Command>(*aim);
   if (event.is_repeat && !goes_on_while_held(command)) return;

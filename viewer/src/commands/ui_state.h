@@ -17,6 +17,7 @@
 #include "argil/haptics/simulation/hand_model.h"
 
 #include "commands/brush.h"
+#include "commands/brush_preset.h"
 #include "commands/import_choice.h"
 #include "commands/key_map.h"
 #include "commands/measure.h"
@@ -64,6 +65,7 @@ struct PanelState {
   bool has_messages = false;
   bool has_help = false;
   bool has_keys = false;
+  bool has_presets = false;
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
@@ -198,6 +200,17 @@ struct KeyChoice {
   std::string filter;
 };
 
+/// What the palette of brushes with names waits for.
+struct PresetChoice {
+  std::string chosen;          ///< the name of the one chosen last; "" none
+  std::string name;            ///< that is being typed
+  bool waits_for_key = false;  ///< the one chosen
+  std::string refused;         ///< why the last name or key could not be taken; "" it could
+  // For the program, once a frame: files of these names.
+  std::vector<std::string> to_write;
+  std::vector<std::string> to_remove;
+};
+
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
 
@@ -227,6 +240,8 @@ struct UiState {
   MeasureChoice measures;
   KeyMap keys;
   KeyChoice key_choice;
+  std::vector<BrushPreset> presets;  ///< by name
+  PresetChoice preset_choice;
   SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn

@@ -51,6 +51,8 @@ bool is_on(Command command, const UiState& ui) {
       return ui.panels.has_messages;
     case Command::help:
       return ui.panels.has_help;
+    case Command::presets:
+      return ui.panels.has_presets;
     case Command::keys:
       return ui.panels.has_keys;
     case Command::figures:

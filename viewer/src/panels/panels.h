@@ -50,6 +50,7 @@ void draw_measures(UiState& ui, DocumentThread& document);
 void draw_search(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
 void draw_keys(UiState& ui);
+void draw_presets(UiState& ui);
 void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
 void draw_toasts(MessageLog& log);
