@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/key_map.h"
 
-#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <map>
-#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -91,6 +91,26 @@ TEST(KeySets, OfZBrushHasItsKeysForSizeIntensityFrameAndMasks) {
   EXPECT_EQ(key(Command::mask_fill), "Ctrl+A");
   EXPECT_EQ(key(Command::mask_clear), "Ctrl+Shift+A");
   EXPECT_EQ(key(Command::piece_gizmo), "W");
+}
+
+/// A line of docs/keys.md: title, the key in each set, and the name in files.
+std::string documented(const KeyAim& aim) {
+  std::string line = std::string("| ") + title_of(aim) + " |";
+  for (const KeySet set : kAllSets) {
+    const std::string key = shown_key(set, aim);
+    const std::string fence = key.find('`') == std::string::npos ? "`" : "`` ";
+    line +=
+        key.empty() ? " – |" : " " + fence + key + std::string(fence.rbegin(), fence.rend()) + " |";
+  }
+  return line.append(" ").append(name_of(aim)).append(" |\n");
+}
+
+TEST(KeySets, AreListedInTheDocumentation) {
+  std::ifstream in("docs/keys.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (const KeyAim& aim : all_key_aims()) {
+    EXPECT_NE(page.find("\n" + documented(aim)), std::string::npos) << documented(aim);
+  }
 }
 
 TEST(KeyMap, AKeyThatIsGivenDoesNothingElse) {

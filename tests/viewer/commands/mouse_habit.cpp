@@ -60,7 +60,7 @@ TEST(MouseHabit, OfZBrushDoesTheOppositeByAltAndMasksByCtrl) {
   EXPECT_EQ(meaning_of(KeySet::zbrush, MouseButton::right, kAlt).what, What::move);
 }
 
-/// A press of the left button with modifiers, and what stands where the camera stood.
+/// A press of a button with modifiers, and what stands where the camera stood.
 class MouseHabitTest : public GesturesTest {
  protected:
   void press_and_drag(const Modifiers& held, MouseButton button = MouseButton::left) {
@@ -68,12 +68,15 @@ class MouseHabitTest : public GesturesTest {
     event.kind = InputEvent::Kind::press;
     event.button = button;
     event.modifiers = held;
+    event.is_eraser = is_eraser_;
     event.x = event.y = 32.0;
     gestures_.on(event, false);
     event.kind = InputEvent::Kind::move;
     event.x = 40.0;
     gestures_.on(event, false);
   }
+
+  bool is_eraser_ = false;
 };
 
 TEST_F(MouseHabitTest, AltAndLeftWorkInZBrushsSetAndTurnInTheOthers) {
@@ -87,6 +90,28 @@ TEST_F(MouseHabitTest, AltAndLeftWorkInZBrushsSetAndTurnInTheOthers) {
   press_and_drag(kAlt);
   EXPECT_FALSE(gestures_.is_stroke_open());
   EXPECT_NE(ui_.camera.eye_mm(), before);
+}
+
+TEST_F(MouseHabitTest, ThePensOtherEndDoesTheOpposite) {
+  // Seen by an outline: it keeps whether it is inverse.
+  ui_.brush.action = Action::mask;
+  ui_.outlines.mask = DragForm::lasso;
+  for (const KeySet set : {KeySet::argil, KeySet::zbrush}) {
+    ui_.keys.choose(set);
+    for (const bool is_eraser : {false, true}) {
+      is_eraser_ = is_eraser;
+      press_and_drag(kBare);
+      ASSERT_TRUE(ui_.outline);
+      EXPECT_EQ(ui_.outline->is_inverse, is_eraser);
+      mouse(InputEvent::Kind::release);
+    }
+    // With what does the opposite already, it does what is usual.
+    is_eraser_ = true;
+    press_and_drag(set == KeySet::argil ? kCtrl : kAlt);
+    ASSERT_TRUE(ui_.outline);
+    EXPECT_FALSE(ui_.outline->is_inverse);
+    mouse(InputEvent::Kind::release);
+  }
 }
 
 TEST_F(MouseHabitTest, MiddleTurnsInBlendersSet) {

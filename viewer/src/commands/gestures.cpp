@@ -204,6 +204,8 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
   if (meaning.what == PressMeaning::What::turn) return Drag::orbit;
   InputEvent meant = event;
   meant.modifiers = meaning.held;
+  // The other end of a pen does the opposite, as Ctrl; with Shift either end smooths.
+  if (event.is_eraser && !meant.modifiers.shift) meant.modifiers.ctrl = !meant.modifiers.ctrl;
   paints_mask_ = meaning.is_mask;
   return work_of(meant, meaning.beside == PressMeaning::What::move ? Drag::pan : Drag::orbit);
 }

@@ -66,7 +66,8 @@ struct InputEvent {
   double time_s = 0.0;  ///< of the window's clock
   double x = 0.0;       ///< of the pointer in pixels from the upper left, always the newest
   double y = 0.0;
-  double pressure = 1.0;  ///< of a pen, 0 to 1
+  double pressure = 1.0;   ///< of a pen, 0 to 1
+  bool is_eraser = false;  ///< it is held the other way round
   MouseButton button = MouseButton::left;
   double steps = 0.0;  ///< scroll: positive away from the user
   /// puck, of a 3D mouse: how far it is pushed, to the right, up and away from the user, and how

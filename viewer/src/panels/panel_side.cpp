@@ -345,8 +345,6 @@ void draw_view(UiState& ui) {
     slide("Place", ui.show.slice_position, -1.0, 1.0, "%.2f");
   }
   draw_size_choice(ui.settings);
-  int theme = static_cast<int>(ui.settings.theme);
-  if (pick_one("Theme", theme, {"Dark", "Light"})) ui.settings.theme = static_cast<Theme>(theme);
   check("Number row as numpad", ui.settings.has_number_views);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("1, 3, 5, 7 look as the numpad's keys do");
   ImGui::PopItemWidth();
