@@ -153,6 +153,11 @@ TEST_F(SearchKeys, ALetterThatOpensItIsNotTypedIntoItAndCanBeTypedThen) {
   EXPECT_TRUE(ui_.search.is_open);
   EXPECT_EQ(ui_.search.text, "b");
   EXPECT_EQ(found_entries(search_for("smooth"), ui_.keys).front().chord, "Shift+S");
+  key(kKeyEscape);
+  key('X');
+  perform(Command::search, ui_, document_);  // by the menu
+  type("w");
+  EXPECT_EQ(ui_.search.text, "w");
 }
 
 }  // namespace

@@ -80,16 +80,16 @@ class MouseHabitTest : public GesturesTest {
 };
 
 TEST_F(MouseHabitTest, AltAndLeftWorkInZBrushsSetAndTurnInTheOthers) {
-  const Vec3 before = ui_.camera.eye_mm();
+  const Vec3 before = ui_.camera.lens({}).eye_mm;
   ui_.keys.choose(KeySet::zbrush);
   press_and_drag(kAlt);
   EXPECT_TRUE(gestures_.is_stroke_open());
-  EXPECT_EQ(ui_.camera.eye_mm(), before);
+  EXPECT_EQ(ui_.camera.lens({}).eye_mm, before);
   mouse(InputEvent::Kind::release);
   ui_.keys.choose(KeySet::argil);
   press_and_drag(kAlt);
   EXPECT_FALSE(gestures_.is_stroke_open());
-  EXPECT_NE(ui_.camera.eye_mm(), before);
+  EXPECT_NE(ui_.camera.lens({}).eye_mm, before);
 }
 
 TEST_F(MouseHabitTest, ThePensOtherEndDoesTheOpposite) {
@@ -116,11 +116,11 @@ TEST_F(MouseHabitTest, ThePensOtherEndDoesTheOpposite) {
 
 TEST_F(MouseHabitTest, MiddleTurnsInBlendersSet) {
   const Vec3 target = ui_.camera.target_mm();
-  const Vec3 eye = ui_.camera.eye_mm();
+  const Vec3 eye = ui_.camera.lens({}).eye_mm;
   ui_.keys.choose(KeySet::blender);
   press_and_drag(kBare, MouseButton::middle);
   EXPECT_EQ(ui_.camera.target_mm(), target);
-  EXPECT_NE(ui_.camera.eye_mm(), eye);
+  EXPECT_NE(ui_.camera.lens({}).eye_mm, eye);
   mouse(InputEvent::Kind::release, MouseButton::middle);
   press_and_drag(kShift, MouseButton::middle);
   EXPECT_NE(ui_.camera.target_mm(), target);

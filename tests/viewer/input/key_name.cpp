@@ -24,7 +24,7 @@ TEST(KeyName, EveryKeyWithANameIsReadAsItWasWritten) {
 }
 
 TEST(KeyName, AModifierIsNoKey) {
-  for (int key = 340; key <= 347; ++key) EXPECT_EQ(text_of({key, {}}), "");
+  for (int key = 340; key <= 347; ++key) EXPECT_EQ(text_of(KeyChord{key, {}}), "");
   EXPECT_FALSE(chord_of("Ctrl+"));
   EXPECT_FALSE(chord_of(""));
   EXPECT_EQ(text_of(*chord_of("alt+shift+ctrl+numplus")), "Ctrl+Shift+Alt+NumPlus");

@@ -14,12 +14,6 @@
 namespace argil::viewer {
 namespace {
 
-constexpr CommandInfo kCommands[] = {
-#define ARGIL_COMMAND(name, menu, title, key, blender, zbrush) \
-  {Command::name, #name, menu, title, {key, blender, zbrush}},
-#include "commands/command_rows.h"
-};
-
 constexpr double kSizeStep = 1.1;  // of one press; seven about double the size
 constexpr double kStrengthStep = 0.05;
 
@@ -151,6 +145,7 @@ bool perform_on_view(Command command, UiState& ui) {
       return true;
     case Command::search:
       ui.search.is_open = true;
+      ui.search.skips_letter = false;
       ui.search.text.clear();
       ui.search.at = 0;
       return true;
@@ -327,14 +322,6 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
 }
 
 }  // namespace
-
-std::span<const CommandInfo> command_infos() noexcept { return kCommands; }
-
-const CommandInfo& info_of(Command command) noexcept {
-  const CommandInfo& info = kCommands[static_cast<std::size_t>(command)];
-  assert(info.command == command);
-  return info;
-}
 
 void choose_tool(const ToolInfo& tool, UiState& ui) {
   leave_measuring(ui.measures);

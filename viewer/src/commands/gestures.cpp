@@ -144,7 +144,8 @@ void Gestures::do_key(const InputEvent& event) {
   if (event.is_repeat && !goes_on_while_held(command)) return;
   perform(command, ui_, document_);
   // The letter that is told after the key would be typed into the search.
-  ui_.search.skips_letter = types_letter({event.key, event.modifiers});
+  const bool opens = command == Command::search;
+  ui_.search.skips_letter = opens && types_letter({event.key, event.modifiers});
 }
 
 /// Ends one thing: what is being done, else a dialog, else the tool that measures.

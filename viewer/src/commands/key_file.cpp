@@ -12,7 +12,7 @@
 #include "argil/io/safe_file.h"
 #include "argil/io/settings_file.h"
 
-#include "commands/command.h"
+#include "commands/command_info.h"
 
 namespace argil::viewer {
 namespace {

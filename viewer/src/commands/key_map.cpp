@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "commands/clutch_key.h"
-#include "commands/command.h"
+#include "commands/command_info.h"
 #include "document/tool_info.h"
 
 namespace argil::viewer {

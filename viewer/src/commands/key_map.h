@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "commands/key_set.h"
 #include "commands/search_choice.h"
 #include "input/key_name.h"
 
 namespace argil::viewer {
-
-/// The keys that are built in: Argil's own, and for who comes from another program.
-enum class KeySet { argil, blender, zbrush };
-inline constexpr std::size_t kKeySetCount = 3;
-/// In files, and as panels have them.
-inline constexpr std::array<std::string_view, kKeySetCount> kKeySetNames{"argil", "blender",
-                                                                         "zbrush"};
-inline constexpr std::array<const char*, kKeySetCount> kKeySetTitles{"Argil", "Blender", "ZBrush"};
 
 /// Which key does which command and chooses which tool: those of a set, and before them what the
 /// user chose. Each has one key at most, and no key does two things.
