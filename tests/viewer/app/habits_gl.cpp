@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys, theme and brushes with names, as one window sets them and the next one has them.
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +47,16 @@ class ViewHabitsGl : public test::WindowTest {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
+  /// The middle of a picture, away from the figures of the status line.
+  static std::vector<std::uint8_t> middle(const Image& image) {
+    std::vector<std::uint8_t> rgb;
+    for (int y = 160; y < 480; ++y) {
+      const auto from = image.rgb.begin() + 3 * (y * image.width + 300);
+      rgb.insert(rgb.end(), from, from + 3 * 400);
+    }
+    return rgb;
+  }
+
   /// The mean of red, green and blue over a square of a picture, 0 to 255.
   static double brightness(const Image& image, int left, int top, int side) {
     double sum = 0.0;
@@ -72,9 +84,9 @@ TEST_F(ViewHabitsGl, AKeyThatIsPressedForACommandIsItsKeyInTheNextWindow) {
   played(
       "move 20 620\nkey T\nframes 3\nshot plain.png\nkey W\nframes 3\nshot same.png\n"
       "key Ctrl+F7\nframes 3\nshot wires.png\n");
-  const Image plain = test::read_picture(folder_ / "plain.png");
-  EXPECT_EQ(test::read_picture(folder_ / "same.png").rgb, plain.rgb);
-  EXPECT_NE(test::read_picture(folder_ / "wires.png").rgb, plain.rgb);
+  const auto plain = middle(test::read_picture(folder_ / "plain.png"));
+  EXPECT_EQ(middle(test::read_picture(folder_ / "same.png")), plain);
+  EXPECT_NE(middle(test::read_picture(folder_ / "wires.png")), plain);
 }
 
 TEST_F(ViewHabitsGl, ABadFileOfKeysChangesNothingAndIsToldOf) {

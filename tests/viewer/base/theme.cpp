@@ -73,7 +73,10 @@ TEST(ThemeTest, EveryTextIsToldFromWhatItStandsOn) {
                                                 {"header", c.header},
                                                 {"header_hovered", c.header_hovered},
                                                 {"header_active", c.header_active},
-                                                {"title", c.title}}) {
+                                                {"title", c.title},
+                                                {"title_idle", c.title_idle},
+                                                {"grab", c.grab},
+                                                {"grab_active", c.grab_active}}) {
         EXPECT_GE(least_contrast_in(c.text, ground, panel), kEnough)
             << name << ": text on " << ground_name;
       }

@@ -65,11 +65,13 @@ class MouseHabitTest : public GesturesTest {
  protected:
   void press_and_drag(const Modifiers& held, MouseButton button = MouseButton::left) {
     InputEvent event;
-    event.kind = InputEvent::Kind::press;
+    event.kind = InputEvent::Kind::move;
     event.button = button;
     event.modifiers = held;
     event.is_eraser = is_eraser_;
     event.x = event.y = 32.0;
+    gestures_.on(event, false);
+    event.kind = InputEvent::Kind::press;
     gestures_.on(event, false);
     event.kind = InputEvent::Kind::move;
     event.x = 40.0;

@@ -23,10 +23,11 @@ struct Paint {
 /// least (ThemeTest.EveryTextIsToldFromWhatItStandsOn), whatever is seen through that.
 struct ThemeColors {
   // What texts stand on.
-  Paint window;  ///< panels and status line
-  Paint popup;   ///< menus, lists, tooltips, numbers over the picture
-  Paint title;
-  Paint frame;  ///< of fields, sliders and boxes to tick
+  Paint window;      ///< panels and status line
+  Paint popup;       ///< menus, lists, tooltips, numbers over the picture
+  Paint title;       ///< of the panel that is worked in
+  Paint title_idle;  ///< of the others
+  Paint frame;       ///< of fields, sliders and boxes to tick
   Paint frame_hovered;
   Paint frame_active;
   Paint button;
@@ -35,6 +36,8 @@ struct ThemeColors {
   Paint header;  ///< what is chosen in a list
   Paint header_hovered;
   Paint header_active;
+  Paint grab;  ///< of sliders, below their numbers, and what is done of a bar
+  Paint grab_active;
 
   // Texts. What is said beside, and what cannot be done now, is weaker; both are read.
   Paint text;
@@ -46,7 +49,7 @@ struct ThemeColors {
   Paint told;  ///< of a device: what it does
 
   // What is no text.
-  Paint mark;  ///< ticks, sliders, bars and plots
+  Paint mark;  ///< ticks and plots
   Paint mark_active;
   Paint line;  ///< between parts of a panel
   // Pictures of tools: the air around the clay, the clay, its edge, and where it was.

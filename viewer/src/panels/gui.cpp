@@ -61,9 +61,9 @@ void set_colors(const ThemeColors& colors, ImGuiStyle& style) {
   put({ImGuiCol_TextDisabled}, colors.weak_text);
   put({ImGuiCol_WindowBg}, colors.window);
   put({ImGuiCol_PopupBg}, colors.popup);
-  put({ImGuiCol_TitleBg, ImGuiCol_TitleBgActive, ImGuiCol_TitleBgCollapsed, ImGuiCol_MenuBarBg,
-       ImGuiCol_TableHeaderBg},
-      colors.title);
+  put({ImGuiCol_TitleBgActive, ImGuiCol_TableHeaderBg}, colors.title);
+  put({ImGuiCol_TitleBg, ImGuiCol_TitleBgCollapsed}, colors.title_idle);
+  put({ImGuiCol_MenuBarBg}, colors.popup);
   put({ImGuiCol_FrameBg}, colors.frame);
   put({ImGuiCol_FrameBgHovered}, colors.frame_hovered);
   put({ImGuiCol_FrameBgActive}, colors.frame_active);
@@ -73,10 +73,10 @@ void set_colors(const ThemeColors& colors, ImGuiStyle& style) {
   put({ImGuiCol_Header, ImGuiCol_TextSelectedBg}, colors.header);
   put({ImGuiCol_HeaderHovered}, colors.header_hovered);
   put({ImGuiCol_HeaderActive}, colors.header_active);
-  put({ImGuiCol_SliderGrab, ImGuiCol_PlotHistogram, ImGuiCol_PlotLines}, colors.mark);
-  put({ImGuiCol_CheckMark, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogramHovered,
-       ImGuiCol_PlotLinesHovered},
-      colors.mark_active);
+  put({ImGuiCol_SliderGrab, ImGuiCol_PlotHistogram}, colors.grab);
+  put({ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogramHovered}, colors.grab_active);
+  put({ImGuiCol_PlotLines}, colors.mark);
+  put({ImGuiCol_CheckMark, ImGuiCol_PlotLinesHovered}, colors.mark_active);
   put({ImGuiCol_Border, ImGuiCol_Separator, ImGuiCol_ResizeGrip, ImGuiCol_TableBorderLight,
        ImGuiCol_TableBorderStrong},
       colors.line);
