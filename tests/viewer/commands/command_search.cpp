@@ -154,7 +154,6 @@ TEST_F(SearchKeys, ALetterThatOpensItIsNotTypedIntoItAndCanBeTypedThen) {
   EXPECT_EQ(ui_.search.text, "b");
   EXPECT_EQ(found_entries(search_for("smooth"), ui_.keys).front().chord, "Shift+S");
   key(kKeyEscape);
-  key('X');
   perform(Command::search, ui_, document_);  // by the menu
   type("w");
   EXPECT_EQ(ui_.search.text, "w");

@@ -145,7 +145,7 @@ bool perform_on_view(Command command, UiState& ui) {
       return true;
     case Command::search:
       ui.search.is_open = true;
-      ui.search.skips_letter = false;
+      ui.search.skips_until_s = -1.0;
       ui.search.text.clear();
       ui.search.at = 0;
       return true;

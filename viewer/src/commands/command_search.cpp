@@ -155,12 +155,13 @@ bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document
   SearchChoice& choice = ui.search;
   if (!choice.is_open) return false;
   if (event.kind == InputEvent::Kind::text) {
-    if (!std::exchange(choice.skips_letter, false)) type_letter(choice, event.character);
+    const double skips_until_s = std::exchange(choice.skips_until_s, -1.0);
+    if (event.time_s > skips_until_s) type_letter(choice, event.character);
     return true;
   }
   if (event.kind != InputEvent::Kind::key_down) return false;
   const KeyChord chord{event.key, event.modifiers};
-  choice.skips_letter = false;
+  choice.skips_until_s = -1.0;
   if (!types_letter(chord) && ui.keys.aim_of(chord) == KeyAim(Command::search)) {
     choice.is_open = false;
     return true;

@@ -144,8 +144,10 @@ void Gestures::do_key(const InputEvent& event) {
   if (event.is_repeat && !goes_on_while_held(command)) return;
   perform(command, ui_, document_);
   // The letter that is told after the key would be typed into the search.
-  const bool opens = command == Command::search;
-  ui_.search.skips_letter = opens && types_letter({event.key, event.modifiers});
+  if (command == Command::search && types_letter({event.key, event.modifiers})) {
+    constexpr double kLetterS = 0.002;  // the window system tells it at once
+    ui_.search.skips_until_s = event.time_s + kLetterS;
+  }
 }
 
 /// Ends one thing: what is being done, else a dialog, else the tool that measures.
