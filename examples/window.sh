@@ -62,3 +62,8 @@ printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":18,"voxel_
   '{"piece":"add","name":"Head","of":"head.vdb","position_mm":[0,-2,25],"color":"#e0ac8c"}' > "$work/two.strokes.jsonl"
 "$argil" sculpt --strokes "$work/two.strokes.jsonl" -o "$work/piece.vdb" --quiet
 picture pieces 1180x660 'settle\nkey Ctrl+P\nkey Shift+G\nframes 3\nclick ##ry\nframes 3\nkey Ctrl+A\ntype 30\nkey Enter\nsettle\nmove 760 620\nframes 1000'
+
+# The list of keys, with one that is pressed and means something already.
+picture keys 1100x640 'settle\nkey Shift+F1\nframes 3\nclick Find\nframes 2\ntype view\nframes 3\nclick key wires\nframes 3\nkey X\nframes 3\nmove 700 600\nframes 5'
+# The light theme, and the palette of brushes with names. Last, since the theme is kept.
+picture light 1180x700 'settle\nclick View\nframes 3\nclick Dark or light\nframes 3\nkey Shift+B\nframes 3\nclick Polish\nframes 3\nsettle\nmove 700 250\nframes 5'

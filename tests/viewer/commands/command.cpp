@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/command.h"
 
-#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <set>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -21,32 +18,6 @@ TEST_F(GesturesTest, ResamplingBeginsWithTheVoxelThatTheClayHas) {
   ui_.clay.voxel_mm = 0.07;
   perform(Command::operations, ui_, document_);
   EXPECT_EQ(ui_.operation.voxel_mm, 0.07);
-}
-
-TEST(Deeds, EveryChordNamesOneDeedOrAction) {
-  std::set<std::string> chords;
-  for (const CommandInfo& info : command_infos()) {
-    if (*info.chord == '\0') continue;  // the menu and the search have it
-    const auto chord = chord_of(info.chord);
-    ASSERT_TRUE(chord) << info.title << " " << info.chord;
-    // As the help shows it: modifiers in this order, then the key.
-    const Modifiers& held = chord->modifiers;
-    const std::string modifiers = std::string(held.ctrl ? "Ctrl+" : "") +
-                                  (held.shift ? "Shift+" : "") + (held.alt ? "Alt+" : "");
-    const std::string shown = info.chord;
-    ASSERT_TRUE(shown.starts_with(modifiers)) << shown;
-    const std::string key = shown.substr(modifiers.size());
-    EXPECT_EQ(key.find('+'), std::string::npos) << shown;
-    EXPECT_EQ(std::islower(static_cast<unsigned char>(key[0])), 0) << shown;
-    EXPECT_TRUE(chords.insert(info.chord).second) << info.chord;
-    EXPECT_EQ(command_of(*chord), info.command);
-  }
-  for (const ToolInfo& info : tool_infos()) {
-    if (info.key == kNoKey) continue;
-    const std::string letter(1, info.key);
-    EXPECT_TRUE(chords.insert(letter).second) << letter;
-    EXPECT_EQ(tool_named_by(*chord_of(letter)), &info);
-  }
 }
 
 TEST_F(GesturesTest, RedoIsOfferedWhereSomethingWasTakenBack) {

@@ -19,7 +19,7 @@ SearchChoice search_for(const char* text) {
 }
 
 std::string best_found(const char* text) {
-  const auto found = found_entries(search_for(text));
+  const auto found = found_entries(search_for(text), KeyMap());
   return found.empty() ? "" : found.front().place + ": " + found.front().title;
 }
 
@@ -37,11 +37,11 @@ TEST(CommandSearch, FindsByLettersInTheirOrder) {
 }
 
 TEST(CommandSearch, OffersEveryCommandAndEveryToolOnce) {
-  const auto all = found_entries({});
+  const auto all = found_entries({}, KeyMap());
   EXPECT_EQ(all.size(), command_infos().size() - 1 + tool_infos().size()) << "all but the search";
   for (const CommandInfo& info : command_infos()) {
     const auto count = std::count_if(all.begin(), all.end(), [&](const SearchEntry& entry) {
-      return entry.aim == SearchAim(info.command);
+      return entry.aim == KeyAim(info.command);
     });
     EXPECT_EQ(count, info.command == Command::search ? 0 : 1) << info.title;
   }
@@ -77,11 +77,11 @@ TEST_F(SearchKeys, EnterDoesWhatIsMarkedAndItComesFirstTheNextTime) {
   EXPECT_TRUE(ui_.show.has_wires);
   open();
   EXPECT_EQ(ui_.search.text, "");
-  ASSERT_FALSE(found_entries(ui_.search).empty());
-  EXPECT_EQ(found_entries(ui_.search)[0].title, "Wireframe");
+  ASSERT_FALSE(found_entries(ui_.search, ui_.keys).empty());
+  EXPECT_EQ(found_entries(ui_.search, ui_.keys)[0].title, "Wireframe");
   // The mark goes round.
   key(kKeyUp);
-  EXPECT_EQ(ui_.search.at, found_entries(ui_.search).size() - 1);
+  EXPECT_EQ(ui_.search.at, found_entries(ui_.search, ui_.keys).size() - 1);
   key(kKeyDown);
   key(kKeyDown);
   EXPECT_EQ(ui_.search.at, 1U);
@@ -120,7 +120,7 @@ TEST_F(SearchKeys, AToolThatIsFoundWorksFromNowOn) {
 TEST_F(SearchKeys, WhatCannotBeDoneNowIsShownAndDoesNothing) {
   open();
   type("redo");
-  const auto found = found_entries(ui_.search);
+  const auto found = found_entries(ui_.search, ui_.keys);
   ASSERT_EQ(found.front().title, "Redo");
   EXPECT_FALSE(is_possible(found.front(), ui_));
   key(kKeyEnter);
@@ -140,6 +140,23 @@ TEST_F(SearchKeys, ItIsNotModalAndTheRedStopIsHeard) {
   gestures_.on(scroll, false);
   EXPECT_NE(ui_.camera.distance_mm(), distance);
   EXPECT_TRUE(ui_.search.is_open);
+}
+
+TEST_F(SearchKeys, ALetterThatOpensItIsNotTypedIntoItAndCanBeTypedThen) {
+  ui_.keys.choose(KeySet::zbrush);
+  key('B');
+  ASSERT_TRUE(ui_.search.is_open);
+  type("b");  // as the window system tells it after the key
+  EXPECT_EQ(ui_.search.text, "");
+  key('B');
+  type("b");
+  EXPECT_TRUE(ui_.search.is_open);
+  EXPECT_EQ(ui_.search.text, "b");
+  EXPECT_EQ(found_entries(search_for("smooth"), ui_.keys).front().chord, "Shift+S");
+  key(kKeyEscape);
+  perform(Command::search, ui_, document_);  // by the menu
+  type("w");
+  EXPECT_EQ(ui_.search.text, "w");
 }
 
 }  // namespace

@@ -14,9 +14,13 @@ TEST(Settings, AreReadAsTheyWereWritten) {
   const test::ScratchFolder folder;
   const auto home = folder / "not there yet";
   EXPECT_EQ(read_settings(home), Settings());
-  const Settings chosen{
-      true, "my printer 2", "/a folder/nvent firmware.bin", {"Untitled-1 12", "Untitled-2 34"},
-      150,  kFirmPressure};
+  const Settings chosen{true,
+                        "my printer 2",
+                        "/a folder/nvent firmware.bin",
+                        {"Untitled-1 12", "Untitled-2 34"},
+                        150,
+                        kFirmPressure,
+                        Theme::light};
   ASSERT_TRUE(write_changes(home, {}, chosen).ok());
   EXPECT_EQ(read_settings(home), chosen);
   ASSERT_TRUE(write_changes(home, chosen, {}).ok());

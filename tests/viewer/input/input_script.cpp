@@ -22,6 +22,10 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
   const auto moved = read("move 3 4\n").value();
   EXPECT_EQ(std::get<PlayEvent>(moved.front().what).event.x, 3.0);
   EXPECT_EQ(std::get<PlayEvent>(moved.front().what).event.y, 4.0);
+  const auto pen = read("pen 0.5 eraser\npress left\npen 1\npress left\n").value();
+  EXPECT_TRUE(std::get<PlayEvent>(pen.front().what).event.is_eraser);
+  EXPECT_EQ(std::get<PlayEvent>(pen.front().what).event.pressure, 0.5);
+  EXPECT_FALSE(std::get<PlayEvent>(pen.back().what).event.is_eraser);
   EXPECT_EQ(read("drag left 0 0 10 10 5 ctrl+shift\n").value().size(), 9U);
   for (const auto& [text, word] : {std::pair{"settle\nmoove 1 2\n", "moove"},
                                    {"settle\nmove 1 x\n", "'x'"},
@@ -29,6 +33,7 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
                                    {"settle\nkey Ctrl+Nothing\n", "Ctrl+Nothing"},
                                    {"settle\nframes 0\n", "N is '0'; must be"},
                                    {"settle\nmove 1 2 3\n", "'3'"},
+                                   {"settle\npen 0.5 tail\n", "tail"},
                                    {"settle\nclick\n", "LABEL"},
                                    {"settle\ndrag left 1 2 3\n", "must be a number"}}) {
     const auto steps = read(text);

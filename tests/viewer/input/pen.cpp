@@ -26,6 +26,13 @@ TEST(PenPressure, CountsOnlyTheValuesThatCame) {
   EXPECT_DOUBLE_EQ(pressure_in(axis, mask, values.data()).value(), 0.25);
 }
 
+TEST(PenEraser, IsToldByTheNameOfItsDevice) {
+  EXPECT_TRUE(is_eraser_name("Wacom Intuos Pro M Pen eraser"));
+  EXPECT_TRUE(is_eraser_name("HUION Tablet Eraser (0)"));
+  EXPECT_FALSE(is_eraser_name("Wacom Intuos Pro M Pen stylus"));
+  EXPECT_FALSE(is_eraser_name(""));
+}
+
 TEST(PenPressure, IsNotThereWhenItDidNotChange) {
   const std::array<unsigned char, 1> mask{0b00000011};
   const std::array<double, 2> values{1.0, 2.0};

@@ -14,6 +14,7 @@
 #include "argil/io/safe_file.h"
 
 #include "base/text.h"
+#include "commands/brush_preset.h"
 #include "commands/command.h"
 #include "commands/measure.h"
 #include "commands/measure_marks.h"
@@ -80,6 +81,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   ui_.camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
   ui_.recent = read_recent(home_);
   ui_.settings = kept_settings_ = read_settings(home_);
+  read_habits();
   PrinterList printers = read_printers(home_);
   ui_.printers = std::move(printers.printers);
   for (const Error& problem : printers.problems) {
@@ -246,7 +248,7 @@ Result<void> App::frame() {
   const Picture picture = this->picture();
   ui_.panel_scale = scale_of_panels(window_->scale(), ui_.settings.panel_percent, window_->width(),
                                     window_->height());
-  gui_.set_scale(ui_.panel_scale);
+  gui_.set_look(ui_.panel_scale, ui_.settings.theme);
   gui_.begin_frame(now - last_s_);
   // take_events() went by the panels of the frame before, and another event may not follow.
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
@@ -375,6 +377,7 @@ void App::take_events(const std::vector<InputEvent>& events) {
 void App::take_dropped(const std::vector<std::string>& files) {
   if (open_dialog(ui_) != Dialog::none || files.empty()) return;
   const fs::path file = files.front();
+  if (looks_like_preset(file)) return take_preset(file);
   if (extension_of(file) != ".png") return open_file(file, ui_, document_);
   const auto added = add_alpha(home_, file);
   if (!added) return tell(notice_of(added.error()));
@@ -496,14 +499,6 @@ void App::start_empty() {
   if (has_begun_ || ui_.clay.left) return;
   has_begun_ = true;
   if (!ui_.clay.has_clay) document_.send(NewClay{ui_.waiting_start});
-}
-
-void App::keep_settings() {
-  if (ui_.settings == kept_settings_) return;
-  const Settings former = std::exchange(kept_settings_, ui_.settings);
-  if (auto kept = write_changes(home_, former, ui_.settings); !kept) {
-    tell({Notice::Kind::warning, kept.error().message});
-  }
 }
 
 /// For the report, as long as there is a clay: what lies on it is gone with it.
@@ -671,6 +666,7 @@ void App::draw_panels() {
   draw_history(ui_, document_);
   draw_print(ui_, document_);
   draw_pieces(ui_, document_);
+  draw_presets(ui_);
   draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);
@@ -684,6 +680,7 @@ void App::draw_panels() {
   draw_save_question(ui_, document_);
   draw_left_question(ui_, document_);
   draw_help(ui_);
+  draw_keys(ui_);
   draw_search(ui_, document_);
   draw_task(ui_, document_);
   log_.tick(window_->now_s());

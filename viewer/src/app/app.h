@@ -89,7 +89,11 @@ class App {
   void read_wanted_alphas();
   void take_dropped(const std::vector<std::string>& files);
   void start_empty();
+  void read_habits();
   void keep_settings();
+  void keep_keys();
+  void keep_presets();
+  void take_preset(const std::filesystem::path& file);
   void note_measurements();
   void tell(Notice notice);
 
@@ -112,6 +116,7 @@ class App {
 
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file
+  KeyMap kept_keys_;        ///< likewise
   std::optional<SlicePicture> slice_;
   FrameState last_frame_;
   DisplayView shown_view_;  ///< that the document thread was told last, and when

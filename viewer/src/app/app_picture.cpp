@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/app.h"
+#include "base/theme.h"
 #include "commands/command.h"
 #include "commands/measure_marks.h"
 #include "commands/piece_gestures.h"
@@ -24,6 +25,11 @@ Vec3 linear_of(const Rgb8& color) {
   return linear;
 }
 
+Vec3 place_of(const Paint& opaque) {
+  return {static_cast<double>(opaque.r), static_cast<double>(opaque.g),
+          static_cast<double>(opaque.b)};
+}
+
 }  // namespace
 
 Picture App::picture() const {
@@ -40,6 +46,8 @@ Picture App::picture() const {
   if (parts.size() > 1) picture.right_lens = parts.back().camera.lens(content);
   add_pieces(picture);
   if (gizmo) add_gizmo(*gizmo, picture.lens, ui_.pieces.handle, picture);
+  const ThemeColors& colors = colors_of(ui_.settings.theme);
+  picture.ground = {place_of(colors.ground_low), place_of(colors.ground_high)};
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;
   picture.has_occlusion = show.has_occlusion;

@@ -14,79 +14,6 @@
 namespace argil::viewer {
 namespace {
 
-/// Menus, help and keys are made from this table. Within a menu its order is the menu's.
-constexpr CommandInfo kCommands[] = {
-    {Command::new_clay, "File", "New...", "Ctrl+N"},
-    {Command::open, "File", "Open...", "Ctrl+O"},
-    {Command::import_mesh, "File", "Import mesh...", "Ctrl+I"},
-    {Command::save, "File", "Save", "Ctrl+S"},
-    {Command::save_as, "File", "Save as...", "Ctrl+Shift+S"},
-    {Command::export_mesh, "File", "Export for printing...", "Ctrl+E"},
-    {Command::screenshot, "File", "Screenshot", "F12"},
-    {Command::turntable, "File", "Turntable", "Shift+F12"},
-    {Command::quit, "File", "Quit", "Ctrl+Q"},
-    {Command::undo, "Edit", "Undo", "Ctrl+Z"},
-    {Command::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
-    {Command::history, "Edit", "History", "Ctrl+H"},
-    {Command::operations, "Edit", "Whole clay...", "Ctrl+W"},
-    {Command::pieces, "Piece", "Pieces", "Ctrl+P"},
-    {Command::piece_switch, "Piece", "Sculpt the one here", "Alt+Q"},
-    {Command::piece_gizmo, "Piece", "Move and turn", "Shift+G"},
-    {Command::piece_ball, "Piece", "Add a ball", "Shift+A"},
-    {Command::piece_import, "Piece", "Add a mesh...", "Ctrl+Alt+I"},
-    {Command::piece_duplicate, "Piece", "Duplicate", "Shift+D"},
-    {Command::piece_remove, "Piece", "Remove", "Delete"},
-    {Command::piece_bed, "Piece", "Drop to bed", "End"},
-    {Command::piece_bed_all, "Piece", "Drop all to bed", "Shift+End"},
-    {Command::piece_flat, "Piece", "Lay flat", "Alt+End"},
-    {Command::piece_middle, "Piece", "Centre", "Ctrl+End"},
-    {Command::piece_unite, "Piece", "Merge", "Ctrl+J"},
-    {Command::piece_subtract, "Piece", "Subtract", "Ctrl+Shift+J"},
-    {Command::piece_intersect, "Piece", "Intersect", "Ctrl+Alt+J"},
-    {Command::mask_invert, "Mask", "Invert", "Ctrl+Shift+I"},
-    {Command::mask_clear, "Mask", "Clear", "Alt+M"},
-    {Command::mask_blur, "Mask", "Blur", "Alt+B"},
-    {Command::mask_sharpen, "Mask", "Sharpen", "Alt+S"},
-    {Command::mask_grow, "Mask", "Grow", "Alt+G"},
-    {Command::mask_shrink, "Mask", "Shrink", "Shift+Alt+G"},
-    {Command::mask_cavity, "Mask", "By cavity", "Alt+C"},
-    {Command::mask_fill, "Mask", "Fill", "Alt+F"},
-    {Command::symmetry_x, "Brush", "Symmetry X", "X"},
-    {Command::symmetry_y, "Brush", "Symmetry Y", "Y"},
-    {Command::symmetry_z, "Brush", "Symmetry Z", "Shift+X"},
-    {Command::brush_size, "Brush", "Size by mouse", "F"},
-    {Command::brush_strength, "Brush", "Strength by mouse", "Shift+F"},
-    {Command::brush_smaller, "Brush", "Smaller", "["},
-    {Command::brush_larger, "Brush", "Larger", "]"},
-    {Command::brush_weaker, "Brush", "Weaker", "Shift+["},
-    {Command::brush_stronger, "Brush", "Stronger", "Shift+]"},
-    {Command::view_front, "View", "Front", "Num1"},
-    {Command::view_back, "View", "Back", "Ctrl+Num1"},
-    {Command::view_right, "View", "Right", "Num3"},
-    {Command::view_left, "View", "Left", "Ctrl+Num3"},
-    {Command::view_top, "View", "Top", "Num7"},
-    {Command::view_bottom, "View", "Bottom", "Ctrl+Num7"},
-    {Command::view_parallel, "View", "Perspective or parallel", "Num5"},
-    {Command::view_frame, "View", "All of it", "Home"},
-    {Command::shading_next, "View", "Next shading", "Z"},
-    {Command::wires, "View", "Wireframe", "W"},
-    {Command::slice, "View", "Slice", "Shift+W"},
-    {Command::stereo, "View", "Stereo", "Shift+Z"},
-    {Command::panels, "View", "Panels", "Tab"},
-    {Command::figures, "View", "Clay's figures", ""},
-    {Command::print, "View", "Print", ""},
-    {Command::measure_distance, "Measure", "Distance", "Shift+U"},
-    {Command::measure_angle, "Measure", "Angle", "Ctrl+U"},
-    {Command::measure_thickness, "Measure", "Thickness", "Alt+U"},
-    {Command::measure_list, "Measure", "List of measurements", "Ctrl+Alt+U"},
-    {Command::measure_clear, "Measure", "Clear all", ""},
-    {Command::search, "Help", "Search commands", "Ctrl+K"},
-    {Command::help, "Help", "Keys", "F1"},
-    {Command::messages, "Help", "Messages", "Ctrl+M"},
-    {Command::emergency_stop, "Device", "Stop the force", "Space"},
-    {Command::give_force, "Device", "Give the force again", "Ctrl+Shift+G"},
-    {Command::device, "Device", "Device panel", ""}};
-
 constexpr double kSizeStep = 1.1;  // of one press; seven about double the size
 constexpr double kStrengthStep = 0.05;
 
@@ -192,6 +119,9 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::slice:
       ui.show.has_slice = !ui.show.has_slice;
       return true;
+    case Command::theme:
+      ui.settings.theme = ui.settings.theme == Theme::dark ? Theme::light : Theme::dark;
+      return true;
     case Command::stereo:
       ui.show.is_stereo = !ui.show.is_stereo;
       return true;
@@ -215,11 +145,20 @@ bool perform_on_view(Command command, UiState& ui) {
       return true;
     case Command::search:
       ui.search.is_open = true;
+      ui.search.skips_until_s = -1.0;
       ui.search.text.clear();
       ui.search.at = 0;
       return true;
     case Command::help:
       ui.panels.has_help = !ui.panels.has_help;
+      return true;
+    case Command::presets:
+      ui.panels.has_presets = !ui.panels.has_presets;
+      ui.preset_choice.waits_for_key = false;
+      return true;
+    case Command::keys:
+      ui.panels.has_keys = !ui.panels.has_keys;
+      ui.key_choice = {};
       return true;
     default:
       return false;
@@ -290,6 +229,12 @@ bool perform_on_brush(Command command, UiState& ui) {
   }
 }
 
+/// "press Alt+Q, or ", before another way to do it; "" where no key does.
+std::string press_words(const KeyMap& keys, Command command) {
+  const std::string& key = keys.text_of(command);
+  return key.empty() ? std::string() : std::string("press ") + key + ", or ";
+}
+
 /// What is done to pieces, or shown of them.
 bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
   switch (command) {
@@ -298,9 +243,9 @@ bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
       return true;
     case Command::piece_switch:
       if (!ui.is_pointer_over_clay_view) {  // it would be one behind a panel
-        ui.notices.push_back({Notice::Kind::warning,
-                              "point at a piece in the picture and press "
-                              "Alt+Q, or click it twice"});
+        ui.notices.push_back({Notice::Kind::warning, "point at a piece in the picture and " +
+                                                         press_words(ui.keys, command) +
+                                                         "click it twice"});
         return true;
       }
       document.send(
@@ -377,32 +322,6 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
 }
 
 }  // namespace
-
-std::span<const CommandInfo> command_infos() noexcept { return kCommands; }
-
-const CommandInfo& info_of(Command command) noexcept {
-  const auto* found =
-      std::find_if(std::begin(kCommands), std::end(kCommands),
-                   [&](const CommandInfo& info) { return info.command == command; });
-  assert(found != std::end(kCommands));
-  return *found;
-}
-
-std::optional<Command> command_of(const KeyChord& chord) noexcept {
-  for (const CommandInfo& info : kCommands) {
-    if (chord_of(info.chord) == chord) return info.command;
-  }
-  return std::nullopt;
-}
-
-/// Tools have bare letters: a chord with a modifier is never one.
-const ToolInfo* tool_named_by(const KeyChord& chord) noexcept {
-  if (chord.modifiers != Modifiers{} || chord.key == 0) return nullptr;
-  for (const ToolInfo& info : tool_infos()) {
-    if (info.key == chord.key) return &info;
-  }
-  return nullptr;
-}
 
 void choose_tool(const ToolInfo& tool, UiState& ui) {
   leave_measuring(ui.measures);

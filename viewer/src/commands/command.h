@@ -1,102 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
+#include <filesystem>
 #include <string>
 
+#include "commands/command_info.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
-#include "input/key_name.h"
 
 namespace argil::viewer {
-
-/// Everything that a key, a menu entry or a button does. Widgets only name commands; perform() does
-/// them.
-enum class Command {
-  new_clay,
-  open,
-  import_mesh,
-  save,
-  save_as,
-  export_mesh,
-  quit,
-  undo,
-  redo,
-  history,
-  mask_invert,
-  mask_clear,
-  mask_blur,
-  mask_fill,
-  mask_grow,
-  mask_shrink,
-  mask_sharpen,
-  mask_cavity,
-  operations,
-  pieces,
-  piece_switch,
-  piece_gizmo,
-  piece_ball,
-  piece_import,
-  piece_duplicate,
-  piece_remove,
-  piece_bed,
-  piece_bed_all,
-  piece_flat,
-  piece_middle,
-  piece_unite,
-  piece_subtract,
-  piece_intersect,
-  symmetry_x,
-  symmetry_y,
-  symmetry_z,
-  brush_smaller,
-  brush_larger,
-  brush_weaker,
-  brush_stronger,
-  brush_size,
-  brush_strength,
-  view_front,
-  view_back,
-  view_right,
-  view_left,
-  view_top,
-  view_bottom,
-  view_frame,
-  view_parallel,
-  shading_next,
-  wires,
-  slice,
-  stereo,
-  panels,
-  figures,
-  print,
-  measure_distance,
-  measure_angle,
-  measure_thickness,
-  measure_clear,
-  measure_list,
-  device,
-  search,
-  help,
-  screenshot,
-  turntable,
-  messages,
-  emergency_stop,
-  give_force
-};
-
-struct CommandInfo {
-  Command command = Command::undo;
-  const char* menu = "";  ///< the menu that lists it
-  const char* title = "";
-  const char* chord = "";  ///< "Ctrl+Z"; "" none
-};
-std::span<const CommandInfo> command_infos() noexcept;
-const CommandInfo& info_of(Command command) noexcept;
-
-/// The command of a chord, and the tool that a letter chooses; null for none.
-std::optional<Command> command_of(const KeyChord& chord) noexcept;
-const ToolInfo* tool_named_by(const KeyChord& chord) noexcept;
 
 /// The brush works with this tool from now on, and nothing is measured any more.
 void choose_tool(const ToolInfo& tool, UiState& ui);

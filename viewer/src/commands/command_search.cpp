@@ -32,21 +32,17 @@ std::string without_blanks(std::string_view typed) {
   return letters;
 }
 
-SearchEntry search_entry(const CommandInfo& info) {
-  return {info.command, info.title, info.menu, info.chord};
+SearchEntry search_entry(const KeyAim& aim, const KeyMap& keys) {
+  const auto* command = std::get_if<Command>(&aim);
+  return {aim, title_of(aim), command != nullptr ? info_of(*command).menu : "Tool",
+          keys.text_of(aim)};
 }
 
-SearchEntry search_entry(const ToolInfo& info) {
-  return {&info, std::string(info.title), "Tool",
-          info.key == kNoKey ? std::string() : std::string(1, info.key)};
-}
-
-std::vector<SearchEntry> all_search_entries() {
+std::vector<SearchEntry> all_search_entries(const KeyMap& keys) {
   std::vector<SearchEntry> all;
-  for (const CommandInfo& info : command_infos()) {
-    if (info.command != Command::search) all.push_back(search_entry(info));
+  for (const KeyAim& aim : all_key_aims()) {
+    if (aim != KeyAim(Command::search)) all.push_back(search_entry(aim, keys));
   }
-  for (const ToolInfo& info : tool_infos()) all.push_back(search_entry(info));
   return all;
 }
 
@@ -61,8 +57,8 @@ bool is_measuring_tool(Command command) {
          command == Command::measure_thickness;
 }
 
-void move_mark(int by, SearchChoice& choice) {
-  const auto count = static_cast<std::ptrdiff_t>(found_entries(choice).size());
+void move_mark(int by, SearchChoice& choice, const KeyMap& keys) {
+  const auto count = static_cast<std::ptrdiff_t>(found_entries(choice, keys).size());
   if (count == 0) return;
   const auto at = std::min(static_cast<std::ptrdiff_t>(choice.at), count - 1);
   choice.at = static_cast<std::size_t>((at + by + count) % count);
@@ -101,14 +97,14 @@ int match_of(std::string_view typed, std::string_view text) {
   return std::max(best, -1);
 }
 
-std::vector<SearchEntry> found_entries(const SearchChoice& choice) {
+std::vector<SearchEntry> found_entries(const SearchChoice& choice, const KeyMap& keys) {
   struct Scored {
     SearchEntry entry;
     int score = 0;
     std::size_t age = 0;
   };
   std::vector<Scored> found;
-  for (SearchEntry& entry : all_search_entries()) {
+  for (SearchEntry& entry : all_search_entries(keys)) {
     const int in_title = match_of(choice.text, entry.title);
     const int in_all = std::max(match_of(choice.text, entry.title + " " + entry.place),
                                 match_of(choice.text, entry.place + " " + entry.title));
@@ -128,6 +124,10 @@ std::vector<SearchEntry> found_entries(const SearchChoice& choice) {
   std::vector<SearchEntry> entries;
   for (Scored& each : found) entries.push_back(std::move(each.entry));
   return entries;
+}
+
+bool types_letter(const KeyChord& chord) noexcept {
+  return chord.key < kKeyEscape && !chord.modifiers.ctrl && !chord.modifiers.alt;
 }
 
 bool is_possible(const SearchEntry& entry, const UiState& ui) {
@@ -155,11 +155,14 @@ bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document
   SearchChoice& choice = ui.search;
   if (!choice.is_open) return false;
   if (event.kind == InputEvent::Kind::text) {
-    type_letter(choice, event.character);
+    const double skips_until_s = std::exchange(choice.skips_until_s, -1.0);
+    if (event.time_s > skips_until_s) type_letter(choice, event.character);
     return true;
   }
   if (event.kind != InputEvent::Kind::key_down) return false;
-  if (command_of({event.key, event.modifiers}) == Command::search) {
+  const KeyChord chord{event.key, event.modifiers};
+  choice.skips_until_s = -1.0;
+  if (!types_letter(chord) && ui.keys.aim_of(chord) == KeyAim(Command::search)) {
     choice.is_open = false;
     return true;
   }
@@ -168,10 +171,10 @@ bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document
       choice.is_open = false;
       return true;
     case kKeyUp:
-      move_mark(-1, choice);
+      move_mark(-1, choice, ui.keys);
       return true;
     case kKeyDown:
-      move_mark(1, choice);
+      move_mark(1, choice, ui.keys);
       return true;
     case kKeyBackspace:
       if (event.modifiers.ctrl) choice.text.clear();
@@ -180,7 +183,7 @@ bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document
       return true;
     case kKeyEnter:
     case kKeyPadEnter: {
-      const std::vector<SearchEntry> found = found_entries(choice);
+      const std::vector<SearchEntry> found = found_entries(choice, ui.keys);
       if (choice.at < found.size()) do_found(found[choice.at], ui, document);
       return true;
     }

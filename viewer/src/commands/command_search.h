@@ -13,7 +13,7 @@
 namespace argil::viewer {
 
 struct SearchEntry {
-  SearchAim aim;
+  KeyAim aim;
   std::string title;
   std::string place;  ///< the menu that lists it, or "Tool"
   std::string chord;  ///< "" none
@@ -25,8 +25,13 @@ struct SearchEntry {
 int match_of(std::string_view typed, std::string_view text);
 
 /// All commands but the search itself, and all tools; those that match, the best first. Without a
-/// text those that were done last come first, then all in the order of the menus.
-std::vector<SearchEntry> found_entries(const SearchChoice& choice);
+/// text those that were done last come first, then all in the order of the menus. With the keys
+/// that they have.
+std::vector<SearchEntry> found_entries(const SearchChoice& choice, const KeyMap& keys);
+
+/// Whether a key tells a letter too, or another character: those without Ctrl and Alt that are no
+/// F keys and the like.
+bool types_letter(const KeyChord& chord) noexcept;
 
 /// A key or a letter while the search is open: types, moves, does what is marked, or closes it.
 /// True: it is taken.

@@ -10,7 +10,10 @@
 
 #include "commands/command.h"
 #include "commands/command_search.h"
+#include "commands/key_choice.h"
 #include "commands/measure.h"
+#include "commands/mouse_habit.h"
+#include "commands/preset_choice.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -35,6 +38,15 @@ int key_meant(int key, const Settings& settings) {
 }
 
 Camera::Pixel pixel_of(const InputEvent& event) { return {event.x, event.y}; }
+
+/// The brush when it paints the mask whatever it was chosen for.
+Brush masking(const Brush& brush) {
+  Brush mask = brush;
+  mask.action = Action::mask;
+  mask.is_stamp = mask.is_inverted = false;
+  mask.stroke_mode = StrokeMode::space;
+  return mask;
+}
 
 }  // namespace
 
@@ -87,6 +99,7 @@ void Gestures::note_pressure(double pressure) {
 // ---- keys --------------------------------------------------------------------------------------
 
 void Gestures::key(const InputEvent& event, bool is_asked) {
+  if (!is_asked && (key_choice_takes(event, ui_) || preset_key_takes(event, ui_))) return;
   if (event.key == kKeySpace) {
     if (!event.is_repeat) perform(Command::emergency_stop, ui_, document_);
     return;
@@ -114,11 +127,26 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
     return;
   }
   if (drag_ == Drag::hand) return;  // as a stroke, but that the hand may let go of the tool
-  const KeyChord chord{key_meant(event.key, ui_.settings), event.modifiers};
-  if (const auto command = command_of(chord)) {
-    if (!event.is_repeat || goes_on_while_held(*command)) perform(*command, ui_, document_);
-  } else if (const ToolInfo* tool = tool_named_by(chord)) {
-    choose_tool(*tool, ui_);
+  do_key(event);
+}
+
+void Gestures::do_key(const InputEvent& event) {
+  // A digit that was given to something is that; else it may stand for one of the numpad.
+  auto aim = ui_.keys.aim_of({event.key, event.modifiers});
+  if (!aim) aim = ui_.keys.aim_of({key_meant(event.key, ui_.settings), event.modifiers});
+  if (!aim) {
+    const BrushPreset* preset = preset_of({event.key, event.modifiers}, ui_);
+    if (preset != nullptr) choose_preset(*preset, ui_);
+    return;
+  }
+  if (const auto* tool = std::get_if<const ToolInfo*>(&*aim)) return choose_tool(**tool, ui_);
+  const Command command = std::get<Command>(*aim);
+  if (event.is_repeat && !goes_on_while_held(command)) return;
+  perform(command, ui_, document_);
+  // The letter that is told after the key would be typed into the search.
+  if (command == Command::search && types_letter({event.key, event.modifiers})) {
+    constexpr double kLetterS = 0.002;  // the window system tells it at once
+    ui_.search.skips_until_s = event.time_s + kLetterS;
   }
 }
 
@@ -169,18 +197,25 @@ void Gestures::press(const InputEvent& event) {
 
 /// What a press begins.
 Gestures::Drag Gestures::drag_of(const InputEvent& event) {
-  const Modifiers& held = event.modifiers;
   // Between two clicks of a trim's curve: it lies over the picture as the first one found it.
   if (ui_.outline) {
     if (event.button == MouseButton::left) ui_.outline->points.push_back(pixel_of(event));
     return Drag::none;
   }
-  // As in Blender; Alt stands in for the right button on trackpads and pens.
-  if (event.button == MouseButton::middle || (held.alt && held.shift) ||
-      (event.button == MouseButton::right && held.shift)) {
-    return Drag::pan;
-  }
-  if (event.button == MouseButton::right || held.alt) return Drag::orbit;
+  const PressMeaning meaning = meaning_of(ui_.keys.set(), event.button, event.modifiers);
+  if (meaning.what == PressMeaning::What::move) return Drag::pan;
+  if (meaning.what == PressMeaning::What::turn) return Drag::orbit;
+  InputEvent meant = event;
+  meant.modifiers = meaning.held;
+  // The other end of a pen does the opposite, as Ctrl; with Shift either end smooths.
+  if (event.is_eraser && !meant.modifiers.shift) meant.modifiers.ctrl = !meant.modifiers.ctrl;
+  paints_mask_ = meaning.is_mask;
+  return work_of(meant, meaning.beside == PressMeaning::What::move ? Drag::pan : Drag::orbit);
+}
+
+/// What a press of the left button begins that is no turn of the view; `beside` where it is beside
+/// the clay.
+Gestures::Drag Gestures::work_of(const InputEvent& event, Drag beside) {
   if (pieces_.press(event)) return Drag::piece;
   if (ui_.measures.tool) return measure(event);
   ui_.measures.chosen.reset();  // back to the clay
@@ -202,7 +237,7 @@ Gestures::Drag Gestures::drag_of(const InputEvent& event) {
     case Met::nothing:
       break;
   }
-  return Drag::orbit;
+  return beside;
 }
 
 /// Beside the clay the left button turns the view, as with any other tool.
@@ -277,7 +312,7 @@ bool Gestures::begin_outline(const InputEvent& event) {
     drag.form = drag_form_of(ui_);
     drag.is_trim = ui_.brush.action == Action::trim;
   }
-  if (drag.form == DragForm::brush) return false;
+  if (drag.form == DragForm::brush || paints_mask_) return false;
   drag.is_inverse = !held.shift && held.ctrl != ui_.brush.is_inverted;
   drag.part = part_at(ui_.camera, ui_.show.is_stereo, pixel_of(event));
   drag.key = active_key(ui_.clay);
@@ -376,7 +411,7 @@ Gestures::Met Gestures::begin_stroke(const InputEvent& event) {
   assert(!stroke_);
   SurfaceProbe probe = probe_(pixel_of(event));
   if (probe.is_other_at(pixel_of(event))) return Met::other_piece;
-  const Brush brush = brush_with(ui_.brush, event.modifiers);
+  const Brush brush = brush_with(paints_mask_ ? masking(ui_.brush) : ui_.brush, event.modifiers);
   if (mode_of(brush) == StrokeMode::line || mode_of(brush) == StrokeMode::curve) {
     if (!lays_guide_) return begin_guide(event, probe, brush);
   }
@@ -551,6 +586,7 @@ void Gestures::apply_curve(const InputEvent& event) {
   const StrokeGuide guide = *std::exchange(ui_.guide, std::nullopt);
   InputEvent applied = event;
   applied.pressure = 1.0;  // no pen presses a key
+  paints_mask_ = false;
   lay_along(curve_through(pixels_of(guide, ui_.camera, ui_.show.is_stereo)), applied);
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "commands/clutch_key.h"
 #include "commands/measure_gestures.h"
 #include "commands/piece_gestures.h"
 #include "commands/ui_state.h"
@@ -12,10 +13,6 @@
 #include "picture/surface_probe.h"
 
 namespace argil::viewer {
-
-/// While it is held the hand of a device moves without the tool, as to come back from the end of
-/// its reach.
-inline constexpr int kClutchKey = 'V';
 
 /// Turns events into strokes on the clay, camera moves, changes of the brush and commands.
 ///
@@ -74,6 +71,7 @@ class Gestures {
   void release(const InputEvent& event);
   void puck(const InputEvent& event);
   void key(const InputEvent& event, bool is_asked);
+  void do_key(const InputEvent& event);
   void escape();
   void drag_brush(const InputEvent& event);
   void place_drain(const InputEvent& event);
@@ -87,6 +85,7 @@ class Gestures {
   void key_of_curve(const InputEvent& event);
   Met begin_stroke(const InputEvent& event);
   Drag drag_of(const InputEvent& event);
+  Drag work_of(const InputEvent& event, Drag beside);
   Drag measure(const InputEvent& event);
   void extend_stroke(const InputEvent& event);
   void end_stroke();
@@ -105,7 +104,8 @@ class Gestures {
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
   std::optional<OpenStroke> stroke_;
-  bool lays_guide_ = false;  ///< a line or a curve is being made a stroke
+  bool lays_guide_ = false;   ///< a line or a curve is being made a stroke
+  bool paints_mask_ = false;  ///< the stroke that was begun last masks, whatever the tool
   PieceGestures pieces_;
   MeasureGestures measures_;
   std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun

@@ -12,16 +12,18 @@ namespace argil::viewer {
 
 enum class Command;
 
-/// What the search finds: a command, or a tool to be chosen.
-using SearchAim = std::variant<Command, const ToolInfo*>;
+/// What the search finds and a key does: a command, or a tool to be chosen.
+using KeyAim = std::variant<Command, const ToolInfo*>;
 
 /// What the window remembers of the search.
 struct SearchChoice {
   static constexpr std::size_t kMostRecent = 8;
   bool is_open = false;
-  std::string text;               ///< ASCII, as it is typed
-  std::size_t at = 0;             ///< of what is found
-  std::vector<SearchAim> recent;  ///< what was done through it, newest first
+  std::string text;    ///< ASCII, as it is typed
+  std::size_t at = 0;  ///< of what is found
+  /// A letter that is told no later than that is of the key which opened it, and is not typed.
+  double skips_until_s = -1.0;
+  std::vector<KeyAim> recent;  ///< what was done through it, newest first
 };
 
 }  // namespace argil::viewer

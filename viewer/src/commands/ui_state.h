@@ -17,7 +17,9 @@
 #include "argil/haptics/simulation/hand_model.h"
 
 #include "commands/brush.h"
+#include "commands/brush_preset.h"
 #include "commands/import_choice.h"
+#include "commands/key_map.h"
 #include "commands/measure.h"
 #include "commands/outline.h"
 #include "commands/search_choice.h"
@@ -62,6 +64,8 @@ struct PanelState {
   bool has_history = false;
   bool has_messages = false;
   bool has_help = false;
+  bool has_keys = false;
+  bool has_presets = false;
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
@@ -187,6 +191,26 @@ struct PieceChoice {
   std::optional<Camera::Pixel> refused_at;
 };
 
+/// What the panel of keys waits for.
+struct KeyChoice {
+  std::optional<KeyAim> waiting;   ///< for a key
+  std::optional<KeyChord> wanted;  ///< by it, which something else has: it is asked about
+  std::string refused;             ///< why the last key could not be given; "" it could
+  bool asks_to_reset = false;      ///< all of them
+  std::string filter;
+};
+
+/// What the palette of brushes with names waits for.
+struct PresetChoice {
+  std::string chosen;          ///< the name of the one chosen last; "" none
+  std::string name;            ///< that is being typed
+  bool waits_for_key = false;  ///< the one chosen
+  std::string refused;         ///< why the last name or key could not be taken; "" it could
+  // For the program, once a frame: files of these names.
+  std::vector<std::string> to_write;
+  std::vector<std::string> to_remove;
+};
+
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
 
@@ -214,6 +238,10 @@ struct UiState {
   bool is_hand_led = false;    ///< the mouse leads a device's hand, which works the clay
   std::optional<BrushDrag> brush_drag;
   MeasureChoice measures;
+  KeyMap keys;
+  KeyChoice key_choice;
+  std::vector<BrushPreset> presets;  ///< by name
+  PresetChoice preset_choice;
   SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn

@@ -17,6 +17,7 @@ constexpr const char* kFile = "settings.txt";
 constexpr const char* kNumberViews = "number_views";
 constexpr const char* kPanelPercent = "panel_percent";
 constexpr const char* kPressure = "pressure_curve";
+constexpr const char* kTheme = "theme";
 constexpr const char* kPrinter = "printer";
 constexpr const char* kFirmware = "falcon_firmware";
 constexpr const char* kUnasked = "unasked";
@@ -32,6 +33,9 @@ std::string lines_of(const Settings& settings) {
   add(kNumberViews, settings.has_number_views ? "1" : "0");
   add(kPanelPercent, std::to_string(settings.panel_percent));
   if (settings.pressure != PressureCurve()) add(kPressure, text_of(settings.pressure));
+  if (settings.theme != Theme::dark) {
+    add(kTheme, std::string(kThemeNames[static_cast<std::size_t>(settings.theme)]));
+  }
   add(kPrinter, settings.printer);
   add(kFirmware, settings.firmware.string());
   for (const std::string& one : settings.unasked) add(kUnasked, one);
@@ -66,6 +70,7 @@ Settings read_settings(const fs::path& home) {
     if (name == kNumberViews) settings.has_number_views = value == "1";
     if (name == kPanelPercent) settings.panel_percent = percent_of(value);
     if (name == kPressure) settings.pressure = pressure_of(value).value_or(PressureCurve());
+    if (name == kTheme && value == kThemeNames[1]) settings.theme = Theme::light;
     if (name == kPrinter) settings.printer = value;
     if (name == kFirmware) settings.firmware = value;
     if (name == kUnasked && !value.empty()) settings.unasked.push_back(value);
@@ -81,6 +86,7 @@ Result<void> write_changes(const fs::path& home, const Settings& before, const S
   }
   if (after.panel_percent != before.panel_percent) settings.panel_percent = after.panel_percent;
   if (after.pressure != before.pressure) settings.pressure = after.pressure;
+  if (after.theme != before.theme) settings.theme = after.theme;
   if (after.printer != before.printer) settings.printer = after.printer;
   if (after.firmware != before.firmware) settings.firmware = after.firmware;
   if (after.unasked != before.unasked) settings.unasked = after.unasked;

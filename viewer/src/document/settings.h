@@ -8,6 +8,7 @@
 
 #include "argil/core/result.h"
 
+#include "base/theme.h"
 #include "document/pressure_curve.h"
 
 namespace argil::viewer {
@@ -24,6 +25,7 @@ struct Settings {
   std::vector<std::string> unasked = {};
   int panel_percent = 100;  ///< size of panels and letters, of what the screen asks for; 75 to 300
   PressureCurve pressure;   ///< of a pen
+  Theme theme = Theme::dark;
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 

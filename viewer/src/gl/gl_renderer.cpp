@@ -77,7 +77,7 @@ bool is_drawable(const std::optional<SlicePicture>& slice) {
 /// Whether two pictures differ in their marks alone.
 bool have_same_clay(const Picture& a, const Picture& b) {
   return a.lens == b.lens && a.right_lens == b.right_lens && a.pieces == b.pieces &&
-         a.shading == b.shading && a.has_wires == b.has_wires &&
+         a.ground == b.ground && a.shading == b.shading && a.has_wires == b.has_wires &&
          a.has_occlusion == b.has_occlusion && a.is_moving == b.is_moving && a.slice == b.slice;
 }
 
@@ -276,6 +276,8 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
   // One triangle that covers the screen, made from the numbers of its corners; OpenGL's core
   // profile wants some vertex array all the same.
   passes_.background.use();
+  passes_.background.set("low", picture.ground.low);
+  passes_.background.set("high", picture.ground.high);
   glBindVertexArray(passes_.nothing.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthMask(GL_TRUE);

@@ -16,8 +16,10 @@ void main() {
 inline constexpr const char* kBackgroundFragment = R"(
 in vec2 fraction;
 out vec4 picture;
+uniform vec3 low;
+uniform vec3 high;
 void main() {
-  vec3 color = mix(encoded(vec3(0.022, 0.023, 0.026)), encoded(vec3(0.100, 0.104, 0.112)), fraction.y);
+  vec3 color = mix(low, high, fraction.y);
   // Half a step of 8 bits to and fro, so that the gradient has no bands.
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   picture = vec4(color + (noise - 0.5) / 255.0, 1.0);

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "input/key_name.h"
+#include "input/pen.h"
 
 namespace argil::viewer {
 namespace {
@@ -41,9 +42,9 @@ struct Misread {
 /// nested parts need no way back of their own, and read_input_script turns them into an Error.
 class LineReader {
  public:
-  /// `pressure` of the pen, which this line may change for all that follow.
-  LineReader(const std::string& line, int number, double& pressure, std::vector<ScriptStep>& steps)
-      : words_(line), number_(number), pressure_(pressure), steps_(steps) {}
+  /// `pen`, which this line may change for all that follow.
+  LineReader(const std::string& line, int number, PenState& pen, std::vector<ScriptStep>& steps)
+      : words_(line), number_(number), pen_(pen), steps_(steps) {}
 
   void read() {
     std::string command;
@@ -60,7 +61,7 @@ class LineReader {
     } else if (command == "scroll") {
       event(InputEvent::Kind::scroll).steps = value("STEPS", kScrollSteps);
     } else if (command == "pen") {
-      pressure_ = value("PRESSURE", kPressure);
+      pen();
     } else if (command == "puck") {
       puck();
     } else if (command == "key") {
@@ -103,11 +104,21 @@ class LineReader {
     step.what.template emplace<What>(std::move(what));
   }
 
+  void pen() {
+    pen_.pressure = value("PRESSURE", kPressure);
+    std::string end;
+    pen_.is_eraser = static_cast<bool>(words_ >> end);
+    if (pen_.is_eraser && end != "eraser") {
+      throw Misread{in_quotes(end) + " is no end of a pen; must be eraser, or nothing"};
+    }
+  }
+
   /// A press happens where the pointer is then.
   InputEvent& event(InputEvent::Kind kind) {
     PlayEvent played;
     played.event.kind = kind;
-    played.event.pressure = pressure_;
+    played.event.pressure = pen_.pressure;
+    played.event.is_eraser = pen_.is_eraser;
     add(std::move(played));
     return std::get<PlayEvent>(steps_.back().what).event;
   }
@@ -249,7 +260,7 @@ class LineReader {
 
   std::istringstream words_;
   int number_;
-  double& pressure_;
+  PenState& pen_;
   std::vector<ScriptStep>& steps_;
 };
 
@@ -262,10 +273,10 @@ Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& f
   }
   std::vector<ScriptStep> steps;
   std::string line;
-  double pressure = 1.0;
+  PenState pen;
   for (int number = 1; std::getline(in, line); ++number) {
     try {
-      LineReader(line, number, pressure, steps).read();
+      LineReader(line, number, pen, steps).read();
     } catch (const Misread& wrong) {
       return Error{ErrorKind::bad_input,
                    file.string() + ":" + std::to_string(number) + ": " + wrong.what};

@@ -49,7 +49,7 @@ struct ScriptStep {
 ///   drag BUTTON X Y X Y [N] [MODIFIERS]      in N moves; usual 12
 ///   scroll STEPS                key Ctrl+Z                  type TEXT
 ///   click LABEL                 settle                      frames N
-///   pen PRESSURE                of all that follows, 0 to 1
+///   pen PRESSURE [eraser]       of all that follows, 0 to 1, with its other end
 ///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach (-1 to 1), for S seconds
 ///                               (0 to 10)
 ///   drop FILE                   shot FILE.png               close

@@ -12,6 +12,22 @@ namespace {
 
 /// Keys that are neither letters, digits, F keys nor digits of the numpad.
 constexpr std::pair<int, std::string_view> kNames[] = {{kKeySpace, "Space"},
+                                                       {kKeyApostrophe, "'"},
+                                                       {kKeyComma, ","},
+                                                       {kKeyMinus, "-"},
+                                                       {kKeySlash, "/"},
+                                                       {kKeySemicolon, ";"},
+                                                       {kKeyEqual, "="},
+                                                       {kKeyBackslash, "\\"},
+                                                       {kKeyGrave, "`"},
+                                                       {kKeyInsert, "Insert"},
+                                                       {kKeyPageUp, "PageUp"},
+                                                       {kKeyPageDown, "PageDown"},
+                                                       {kKeyPause, "Pause"},
+                                                       {kKeyPadDivide, "NumDivide"},
+                                                       {kKeyPadTimes, "NumTimes"},
+                                                       {kKeyPadMinus, "NumMinus"},
+                                                       {kKeyPadPlus, "NumPlus"},
                                                        {kKeyPeriod, "."},
                                                        {kKeyLeftBracket, "["},
                                                        {kKeyRightBracket, "]"},
@@ -54,7 +70,30 @@ int key_of(const std::string& lowered) {
   return 0;
 }
 
+/// The name by which key_of() finds it; "" where it does not.
+std::string key_text(int key) {
+  for (const auto& [number, name] : kNames) {
+    if (number == key) return std::string(name);
+  }
+  if ((key >= 'A' && key <= 'Z') || (key >= '0' && key <= '9')) {
+    return std::string(1, static_cast<char>(key));
+  }
+  if (key >= kKeyF1 && key <= kKeyF12) return "F" + std::to_string(key - kKeyF1 + 1);
+  if (key >= kKeyPad0 && key <= kKeyPad9) return "Num" + std::to_string(key - kKeyPad0);
+  return {};
+}
+
 }  // namespace
+
+std::string text_of(const KeyChord& chord) {
+  const std::string key = key_text(chord.key);
+  if (key.empty()) return {};
+  const Modifiers& held = chord.modifiers;
+  std::string text = held.ctrl ? "Ctrl+" : "";
+  if (held.shift) text += "Shift+";
+  if (held.alt) text += "Alt+";
+  return text + key;
+}
 
 std::optional<KeyChord> chord_of(std::string_view name) {
   KeyChord chord;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cctype>
 #include <map>
 #include <utility>
 
@@ -25,6 +26,13 @@ std::optional<double> pressure_in(const PressureAxis& axis, std::span<const unsi
   return std::clamp((*values - axis.least) / (axis.most - axis.least), 0.0, 1.0);
 }
 
+bool is_eraser_name(std::string_view device) noexcept {
+  constexpr std::string_view kEraser = "eraser";
+  return std::search(device.begin(), device.end(), kEraser.begin(), kEraser.end(),
+                     [](unsigned char a, unsigned char b) { return std::tolower(a) == b; }) !=
+         device.end();
+}
+
 /// The connection to the X server, of its own: GLFW reads all events of its connection.
 struct Pen::Listener {
   struct CloseDisplay {
@@ -33,8 +41,12 @@ struct Pen::Listener {
 
   std::unique_ptr<Display, CloseDisplay> display;
   int opcode = 0;
-  /// By device; nothing for one without pressure. Forgotten when devices come and go.
-  std::map<int, std::optional<PressureAxis>> axes;
+  /// What the server says of a device.
+  struct Asked {
+    std::optional<PressureAxis> axis;  ///< nothing for one without pressure
+    bool is_eraser = false;
+  };
+  std::map<int, Asked> asked;  ///< by device; forgotten when devices come and go
   std::map<int, double> pressures;
 
   /// Asks the server for raw motions of all devices. False without XInput 2.1.
@@ -59,43 +71,46 @@ struct Pen::Listener {
     return true;
   }
 
-  const std::optional<PressureAxis>& axis_of(int device) {
-    const auto [found, is_new] = axes.try_emplace(device);
+  const Asked& about(int device) {
+    const auto [found, is_new] = asked.try_emplace(device);
     if (is_new) found->second = ask(device);
     return found->second;
   }
 
-  /// Asks the server which of a device's axes is its pressure.
-  std::optional<PressureAxis> ask(int device) {
+  /// Asks the server which of a device's axes is its pressure, and for its name.
+  Asked ask(int device) {
     const Atom pressure = XInternAtom(display.get(), "Abs Pressure", True);
     int count = 0;
     // One that was unplugged meanwhile is not there, and asking for it alone would end the program.
     XIDeviceInfo* all = XIQueryDevice(display.get(), XIAllDevices, &count);
-    if (all == nullptr) return std::nullopt;
+    Asked answer;
+    if (all == nullptr) return answer;
     const std::span<const XIDeviceInfo> devices(all, static_cast<std::size_t>(count));
     const auto info = std::find_if(devices.begin(), devices.end(),
                                    [&](const XIDeviceInfo& one) { return one.deviceid == device; });
-    std::optional<PressureAxis> axis;
+    if (info != devices.end() && info->name != nullptr) {
+      answer.is_eraser = is_eraser_name(info->name);
+    }
     for (int n = 0; info != devices.end() && n < info->num_classes; ++n) {
       if (info->classes[n]->type != XIValuatorClass) continue;
       const auto* valuator = reinterpret_cast<const XIValuatorClassInfo*>(info->classes[n]);
       if (pressure != None && valuator->label == pressure) {
-        axis = PressureAxis{valuator->number, valuator->min, valuator->max};
+        answer.axis = PressureAxis{valuator->number, valuator->min, valuator->max};
       }
     }
     XIFreeDeviceInfo(all);
-    return axis;
+    return answer;
   }
 
-  /// The pressure of the device that moved, 1 for one that has none.
-  std::optional<double> take(const XIRawEvent& event) {
-    const auto& axis = axis_of(event.sourceid);
-    if (!axis) return 1.0;
+  /// Of the device that moved; the pressure is 1 for one that has none.
+  PenState take(const XIRawEvent& event) {
+    const auto& [axis, is_eraser] = about(event.sourceid);
+    if (!axis) return {};
     const std::span<const unsigned char> mask(event.valuators.mask,
                                               static_cast<std::size_t>(event.valuators.mask_len));
     double& pressure = pressures[event.sourceid];  // a motion tells only what changed
     pressure = pressure_in(*axis, mask, event.raw_values).value_or(pressure);
-    return pressure;
+    return {pressure, is_eraser};
   }
 };
 
@@ -109,9 +124,9 @@ std::unique_ptr<Pen> Pen::open() {
 Pen::Pen(std::unique_ptr<Listener> listener) : listener_(std::move(listener)) {}
 Pen::~Pen() = default;
 
-std::optional<double> Pen::poll() {
+std::optional<PenState> Pen::poll() {
   assert(listener_ != nullptr);
-  std::optional<double> newest;
+  std::optional<PenState> newest;
   Display* display = listener_->display.get();
   while (XPending(display) > 0) {
     XEvent event;
@@ -121,7 +136,7 @@ std::optional<double> Pen::poll() {
       continue;
     }
     // A number may be given to another device: which axis is the pressure is asked again.
-    if (event.xcookie.evtype == XI_HierarchyChanged) listener_->axes.clear();
+    if (event.xcookie.evtype == XI_HierarchyChanged) listener_->asked.clear();
     if (event.xcookie.evtype == XI_RawMotion) {
       newest = listener_->take(*static_cast<const XIRawEvent*>(event.xcookie.data));
     }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace argil::viewer {
 
@@ -19,8 +20,19 @@ struct PressureAxis {
 std::optional<double> pressure_in(const PressureAxis& axis, std::span<const unsigned char> mask,
                                   const double* values) noexcept;
 
-/// How hard a pen is pressed, which GLFW 3.3 does not tell: read beside it through XInput 2, whose
-/// raw motions take nothing from what the window gets.
+/// Whether a device is a pen's other end, by its name: "Wacom Intuos Pro M Pen eraser" and the like
+/// (xf86-input-wacom), "... Eraser (0)" (libinput).
+bool is_eraser_name(std::string_view device) noexcept;
+
+/// What a pen tells, and a mouse does not.
+struct PenState {
+  double pressure = 1.0;   ///< 0 to 1
+  bool is_eraser = false;  ///< its other end
+  friend bool operator==(const PenState&, const PenState&) = default;
+};
+
+/// How hard a pen is pressed and with which end, which GLFW 3.3 does not tell: read beside it
+/// through XInput 2, whose raw motions take nothing from what the window gets.
 ///
 /// Threads  the window's.
 class Pen {
@@ -31,9 +43,9 @@ class Pen {
   Pen(const Pen&) = delete;
   Pen& operator=(const Pen&) = delete;
 
-  /// The newest pressure since the last call, 1 where it was a mouse that moved; nothing when
-  /// nothing did.
-  std::optional<double> poll();
+  /// The newest state since the last call, that of a mouse where one moved; nothing when nothing
+  /// did.
+  std::optional<PenState> poll();
 
  private:
   struct Listener;

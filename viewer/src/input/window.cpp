@@ -14,7 +14,15 @@ namespace {
 
 static_assert(kKeyEscape == GLFW_KEY_ESCAPE && kKeyHome == GLFW_KEY_HOME &&
               kKeyF12 == GLFW_KEY_F12 && kKeyPad9 == GLFW_KEY_KP_9 &&
-              kKeyPadPeriod == GLFW_KEY_KP_DECIMAL && kKeyPadEnter == GLFW_KEY_KP_ENTER);
+              kKeyPadPeriod == GLFW_KEY_KP_DECIMAL && kKeyPadEnter == GLFW_KEY_KP_ENTER &&
+              kKeyApostrophe == GLFW_KEY_APOSTROPHE && kKeyComma == GLFW_KEY_COMMA &&
+              kKeyMinus == GLFW_KEY_MINUS && kKeySlash == GLFW_KEY_SLASH &&
+              kKeySemicolon == GLFW_KEY_SEMICOLON && kKeyEqual == GLFW_KEY_EQUAL &&
+              kKeyBackslash == GLFW_KEY_BACKSLASH && kKeyGrave == GLFW_KEY_GRAVE_ACCENT &&
+              kKeyInsert == GLFW_KEY_INSERT && kKeyPageUp == GLFW_KEY_PAGE_UP &&
+              kKeyPageDown == GLFW_KEY_PAGE_DOWN && kKeyPause == GLFW_KEY_PAUSE &&
+              kKeyPadDivide == GLFW_KEY_KP_DIVIDE && kKeyPadTimes == GLFW_KEY_KP_MULTIPLY &&
+              kKeyPadMinus == GLFW_KEY_KP_SUBTRACT && kKeyPadPlus == GLFW_KEY_KP_ADD);
 
 /// The Window that GLFW calls back for.
 Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
@@ -102,7 +110,8 @@ InputEvent& Window::push(InputEvent::Kind kind, int modifiers) {
   event.time_s = now_s();
   event.x = x_;
   event.y = y_;
-  event.pressure = pressure_;
+  event.pressure = pen_state_.pressure;
+  event.is_eraser = pen_state_.is_eraser;
   event.modifiers = modifiers_;
   return events_.emplace_back(std::move(event));
 }
@@ -159,7 +168,7 @@ void Window::listen() {
 std::vector<InputEvent> Window::poll(double wait_s) {
   assert(wait_s >= 0.0);
   // Before the motions that the pen's pressure belongs to are taken.
-  if (pen_ != nullptr) pressure_ = pen_->poll().value_or(pressure_);
+  if (pen_ != nullptr) pen_state_ = pen_->poll().value_or(pen_state_);
   wait(events_.empty() ? wait_s : 0.0);
   measure();
   return std::exchange(events_, {});
@@ -195,7 +204,7 @@ void Window::take_space_mouse() {
 /// Through GLFW's own callbacks, so that what a script does takes the way of a real event, and a
 /// fault in that way shows in tests.
 void Window::play(const InputEvent& event) {
-  pressure_ = event.pressure;
+  pen_state_ = {event.pressure, event.is_eraser};
   int wide = width_;
   int high = height_;
   glfwGetWindowSize(window_, &wide, &high);

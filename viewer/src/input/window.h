@@ -67,7 +67,7 @@ class Window {
   std::unique_ptr<Pen> pen_;  // null where there is none, as space_mouse_
   std::unique_ptr<SpaceMouse> space_mouse_;
   std::vector<InputEvent> events_;
-  double pressure_ = 1.0;
+  PenState pen_state_;  // the newest
   double x_ = 0.0;
   double y_ = 0.0;
   Modifiers modifiers_;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 #include <utility>
 
 #include <backends/imgui_impl_opengl3.h>
@@ -45,34 +46,57 @@ void load_letters(double scale) {
   io.Fonts->AddFontDefault(&config);
 }
 
-/// Dark, so that the clay is the lightest thing on the screen; the accents are clay's own colour.
-void set_style(double scale) {
+/// The theme that panels are drawn in; global as the style of Dear ImGui.
+Theme& drawn_theme() {
+  static Theme theme = Theme::dark;
+  return theme;
+}
+
+/// Which of Dear ImGui's colours is which of ours.
+void set_colors(const ThemeColors& colors, ImGuiStyle& style) {
+  const auto put = [&](std::initializer_list<ImGuiCol> places, const Paint& paint) {
+    for (const ImGuiCol place : places) style.Colors[place] = imgui_color(paint);
+  };
+  put({ImGuiCol_Text}, colors.text);
+  put({ImGuiCol_TextDisabled}, colors.weak_text);
+  put({ImGuiCol_WindowBg}, colors.window);
+  put({ImGuiCol_PopupBg}, colors.popup);
+  put({ImGuiCol_TitleBgActive, ImGuiCol_TableHeaderBg}, colors.title);
+  put({ImGuiCol_TitleBg, ImGuiCol_TitleBgCollapsed}, colors.title_idle);
+  put({ImGuiCol_MenuBarBg}, colors.popup);
+  put({ImGuiCol_FrameBg}, colors.frame);
+  put({ImGuiCol_FrameBgHovered}, colors.frame_hovered);
+  put({ImGuiCol_FrameBgActive}, colors.frame_active);
+  put({ImGuiCol_Button}, colors.button);
+  put({ImGuiCol_ButtonHovered}, colors.button_hovered);
+  put({ImGuiCol_ButtonActive}, colors.button_active);
+  put({ImGuiCol_Header, ImGuiCol_TextSelectedBg}, colors.header);
+  put({ImGuiCol_HeaderHovered}, colors.header_hovered);
+  put({ImGuiCol_HeaderActive}, colors.header_active);
+  put({ImGuiCol_SliderGrab, ImGuiCol_PlotHistogram}, colors.grab);
+  put({ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogramHovered}, colors.grab_active);
+  put({ImGuiCol_PlotLines}, colors.mark);
+  put({ImGuiCol_CheckMark, ImGuiCol_PlotLinesHovered}, colors.mark_active);
+  put({ImGuiCol_Border, ImGuiCol_Separator, ImGuiCol_ResizeGrip, ImGuiCol_TableBorderLight,
+       ImGuiCol_TableBorderStrong},
+      colors.line);
+}
+
+void set_style(double scale, Theme theme) {
   ImGui::GetStyle() = ImGuiStyle();  // sizes are scaled once
-  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
+  if (theme == Theme::light) {
+    ImGui::StyleColorsLight();
+  } else {
+    ImGui::StyleColorsDark();
+  }
+  set_colors(colors_of(theme), style);
   style.WindowRounding = 4.0F;
   style.FrameRounding = 3.0F;
   style.GrabRounding = 3.0F;
   style.WindowBorderSize = 0.0F;
-  style.Colors[ImGuiCol_WindowBg] = {0.13F, 0.13F, 0.14F, 0.92F};
-  style.Colors[ImGuiCol_PopupBg] = {0.13F, 0.13F, 0.14F, 0.98F};
-  style.Colors[ImGuiCol_FrameBg] = {0.22F, 0.22F, 0.24F, 1.0F};
-  style.Colors[ImGuiCol_FrameBgHovered] = {0.28F, 0.28F, 0.30F, 1.0F};
-  style.Colors[ImGuiCol_FrameBgActive] = {0.34F, 0.34F, 0.36F, 1.0F};
-  style.Colors[ImGuiCol_ResizeGrip] = {0.40F, 0.40F, 0.42F, 0.4F};
-  style.Colors[ImGuiCol_Button] = {0.26F, 0.26F, 0.28F, 1.0F};
-  style.Colors[ImGuiCol_ButtonHovered] = {0.36F, 0.36F, 0.38F, 1.0F};
-  style.Colors[ImGuiCol_ButtonActive] = {0.70F, 0.40F, 0.24F, 1.0F};
-  style.Colors[ImGuiCol_Header] = {0.60F, 0.34F, 0.20F, 0.8F};
-  style.Colors[ImGuiCol_HeaderHovered] = {0.66F, 0.38F, 0.23F, 0.9F};
-  style.Colors[ImGuiCol_HeaderActive] = {0.70F, 0.40F, 0.24F, 1.0F};
-  style.Colors[ImGuiCol_CheckMark] = {0.93F, 0.60F, 0.40F, 1.0F};
-  style.Colors[ImGuiCol_SliderGrab] = {0.75F, 0.45F, 0.28F, 1.0F};
-  style.Colors[ImGuiCol_SliderGrabActive] = {0.93F, 0.60F, 0.40F, 1.0F};
-  style.Colors[ImGuiCol_TitleBgActive] = {0.20F, 0.20F, 0.22F, 1.0F};
-  style.Colors[ImGuiCol_PlotHistogram] = {0.75F, 0.45F, 0.28F, 1.0F};
-  style.Colors[ImGuiCol_PlotLines] = {0.93F, 0.60F, 0.40F, 1.0F};
   style.ScaleAllSizes(static_cast<float>(scale));
+  drawn_theme() = theme;
 }
 
 /// A menu or what a field offers, and no dialog of ours, which is a popup too.
@@ -118,16 +142,17 @@ Gui::Gui(Window& window) : window_(window) {
   };
   name_keys(io);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  set_scale(window.scale());
+  set_look(window.scale(), Theme::dark);
 }
 
-void Gui::set_scale(double scale) {
+void Gui::set_look(double scale, Theme theme) {
   assert(scale > 0.0);
-  if (scale == scale_) return;
-  scale_ = scale;
+  if (scale == scale_ && theme == theme_) return;
+  theme_ = theme;
+  set_style(scale, theme);
+  if (scale == std::exchange(scale_, scale)) return;
   ImGui::GetIO().Fonts->Clear();
   load_letters(scale);
-  set_style(scale);
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
 }
@@ -210,6 +235,16 @@ std::vector<std::string> Gui::labels() const {
 }
 
 // ---- widgets -----------------------------------------------------------------------------------
+
+const ThemeColors& shown_colors() { return colors_of(drawn_theme()); }
+
+ImVec4 imgui_color(const Paint& paint) { return {paint.r, paint.g, paint.b, paint.a}; }
+
+void colored_text(const Paint& paint, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, imgui_color(paint));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
 
 void note_widget(const std::string& label) {
   const ImVec2 low = ImGui::GetItemRectMin();

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <imgui.h>
+
+#include "base/theme.h"
 #include "input/input_event.h"
 #include "panels/input_queue.h"
 
@@ -34,8 +37,9 @@ class Gui {
   /// lists of a dialog are left to the dialog.
   bool leaves_list(const InputEvent& event);
 
-  /// How large panels and letters are from the next frame on: times kLetterPixels.
-  void set_scale(double scale);
+  /// How large panels and letters are from the next frame on, times kLetterPixels, and their
+  /// colours.
+  void set_look(double scale, Theme theme);
 
   void begin_frame(double elapsed_s);
   /// True when the panels look different from those at the last end_frame.
@@ -58,9 +62,16 @@ class Gui {
   Window& window_;
   std::string clipboard_;
   double scale_ = 0.0;
+  Theme theme_ = Theme::dark;
   std::string look_;  ///< all that was to be drawn at the last end_frame
   InputQueue queue_;
 };
+
+/// The colours that panels are drawn in; as Dear ImGui's own.
+const ThemeColors& shown_colors();
+ImVec4 imgui_color(const Paint& paint);
+/// A text in one of them.
+void colored_text(const Paint& paint, const std::string& text);
 
 /// Remembers where the widget just made is, under its label. The functions below do so themselves.
 void note_widget(const std::string& label);

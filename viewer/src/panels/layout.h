@@ -16,6 +16,9 @@ double scale_of_panels(double content_scale, int percent, int width, int height)
 
 /// The colour of what stops the force, or tells that it is stopped.
 inline const ImVec4 kStopColor{0.75F, 0.10F, 0.08F, 1.0F};
+/// That of what gives it again, and of the text on either, whatever the theme.
+inline const ImVec4 kGiveColor{0.20F, 0.47F, 0.20F, 1.0F};
+inline const ImVec4 kOnStopColor{1.0F, 1.0F, 1.0F, 1.0F};
 
 // All below in units.
 

@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "commands/command.h"
+#include "commands/mouse_habit.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"
@@ -50,6 +51,10 @@ bool is_on(Command command, const UiState& ui) {
       return ui.panels.has_messages;
     case Command::help:
       return ui.panels.has_help;
+    case Command::presets:
+      return ui.panels.has_presets;
+    case Command::keys:
+      return ui.panels.has_keys;
     case Command::figures:
       return ui.panels.has_info;
     case Command::print:
@@ -110,7 +115,7 @@ std::string words_of_drawing(const UiState& ui) {
 
 /// What the buttons of the mouse do now.
 std::string buttons_of(const UiState& ui) {
-  const char* const others = ", middle: move, right: turn";
+  const std::string others = std::string(", ") + mouse_words(ui.keys.set()).status_line;
   if (!ui.clay.has_clay) return "";
   if (ui.places_drain) return std::string("Left: place the drain") + others;
   if (ui.draws_path) return std::string("Left: draw the path") + others;
@@ -131,11 +136,12 @@ void draw_hint(const UiState& ui, float screen_width) {
     return screen_width - ImGui::CalcTextSize(text.c_str()).x - 20.0F * unit();
   };
   if (!ui.is_force_stopped) {
-    const char* const help = "F1: all keys";
+    const std::string& key = ui.keys.text_of(Command::help);
+    const std::string help = key.empty() ? std::string("Help > Keys") : key + ": all keys";
     const std::string buttons = buttons_of(ui);
     const std::string whole = buttons.empty() ? help : buttons + "   |   " + help;
     // Over other text nothing could be read.
-    for (const std::string& text : {whole, std::string(help)}) {
+    for (const std::string& text : {whole, help}) {
       if (ImGui::GetCursorPosX() > left_of(text)) continue;
       ImGui::SameLine(left_of(text));
       ImGui::TextDisabled("%s", text.c_str());
@@ -151,7 +157,7 @@ void draw_hint(const UiState& ui, float screen_width) {
       {low.x - 8.0F * unit(), low.y - unit()},
       {low.x + size.x + 8.0F * unit(), low.y + size.y + unit()}, ImGui::GetColorU32(kStopColor),
       3.0F * unit());
-  ImGui::TextUnformatted(text);
+  ImGui::TextColored(kOnStopColor, "%s", text);
 }
 
 /// The project's name, with a star where it was changed since it was saved.
@@ -192,8 +198,9 @@ void draw_bar_stop(std::optional<Command>& chosen, const UiState& ui) {
         std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - 6.0F * unit()));
   }
   ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
+  ImGui::PushStyleColor(ImGuiCol_Text, kOnStopColor);
   if (button("STOP")) chosen = Command::emergency_stop;
-  ImGui::PopStyleColor();
+  ImGui::PopStyleColor(2);
 }
 
 }  // namespace
@@ -208,7 +215,7 @@ void draw_menu(UiState& ui, DocumentThread& document) {
       if (std::string_view(info.menu) != menu) continue;
       if (info.command == Command::quit) draw_files(ui, document);
       if (info.command == Command::figures) ImGui::Separator();
-      if (menu_item(info.title, info.chord, is_on(info.command, ui),
+      if (menu_item(info.title, ui.keys.text_of(info.command).c_str(), is_on(info.command, ui),
                     is_possible(info.command, ui))) {
         chosen = info.command;
       }
@@ -292,20 +299,22 @@ void draw_key(const char* what, const char* how) {
   ImGui::TextUnformatted(what);
 }
 
-void draw_heading(const char* text) { ImGui::TextColored({0.93F, 0.60F, 0.40F, 1.0F}, "%s", text); }
+void draw_heading(const char* text) { colored_text(shown_colors().heading, text); }
 
 /// What the mouse does, which no menu lists, and the keys of the tools.
-void draw_mouse_keys() {
+void draw_mouse_keys(const KeyMap& keys) {
+  const MouseWords words = mouse_words(keys.set());
   draw_heading("Mouse");
   draw_key("sculpt", "Left");
-  draw_key("the opposite", "Ctrl+Left");
+  draw_key("the opposite", words.opposite);
   draw_key("smooth", "Shift+Left");
+  if (*words.mask != '\0') draw_key("mask", words.mask);
   draw_key("mask by a lasso", "Ctrl+Shift+Left");
-  draw_key("turn", "Right");
-  draw_key("turn", "Alt+Left");
-  draw_key("turn", "Left beside it");
-  draw_key("move", "Middle");
-  draw_key("move", "Shift+Right");
+  draw_key("turn", words.turn);
+  draw_key("turn", words.turn_too);
+  if (keys.set() != KeySet::zbrush) draw_key("turn", "Left beside it");
+  draw_key("move", words.move);
+  draw_key("move", words.move_too);
   draw_key("nearer, farther", "Wheel");
   draw_key("sculpt another piece", "Double click");
   draw_key("take a stroke back", "Esc");
@@ -314,17 +323,16 @@ void draw_mouse_keys() {
   ImGui::Spacing();
   draw_heading("Tools");
   for (const ToolInfo& info : tool_infos()) {
-    if (info.key == kNoKey) continue;
-    const char letter[2] = {info.key, '\0'};
-    draw_key(info.title, letter);
+    const std::string& key = keys.text_of(&info);
+    if (!key.empty()) draw_key(info.title, key.c_str());
   }
 }
 
-void draw_menu_keys(const char* menu) {
+void draw_menu_keys(const char* menu, const KeyMap& keys) {
   draw_heading(menu);
   for (const CommandInfo& info : command_infos()) {
-    const bool has_key = *info.chord != '\0';
-    if (std::string_view(info.menu) == menu && has_key) draw_key(info.title, info.chord);
+    const std::string& key = keys.text_of(info.command);
+    if (std::string_view(info.menu) == menu && !key.empty()) draw_key(info.title, key.c_str());
   }
   ImGui::Spacing();
 }
@@ -353,14 +361,18 @@ void draw_help(UiState& ui) {
       std::clamp(static_cast<int>(ImGui::GetWindowWidth() / (280.0F * unit())), 1, 3);
   if (ImGui::BeginTable("keys", columns)) {
     ImGui::TableNextColumn();
-    draw_mouse_keys();
+    draw_mouse_keys(ui.keys);
     ImGui::TableNextColumn();
     for (const char* menu : {"File", "Edit", "Piece", "Mask", "Device", "Help"})
-      draw_menu_keys(menu);
+      draw_menu_keys(menu, ui.keys);
     ImGui::TableNextColumn();
-    for (const char* menu : {"View", "Brush", "Measure"}) draw_menu_keys(menu);
+    for (const char* menu : {"View", "Brush", "Measure"}) draw_menu_keys(menu, ui.keys);
     draw_measure_keys();
     ImGui::EndTable();
+  }
+  if (button("Change them...")) {
+    ui.panels.has_help = false;
+    ui.panels.has_keys = true;
   }
   ImGui::End();
 }

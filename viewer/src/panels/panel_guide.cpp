@@ -5,13 +5,12 @@
 
 #include <imgui.h>
 
+#include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {
 namespace {
-
-const ImVec4 kGuideColor{1.0F, 0.78F, 0.45F, 0.95F};
 
 ImVec2 guide_corner(const Camera::Pixel& pixel) {
   return {static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
@@ -22,7 +21,7 @@ ImVec2 guide_corner(const Camera::Pixel& pixel) {
 void draw_guide(const UiState& ui) {
   if (!ui.guide) return;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImU32 color = ImGui::GetColorU32(kGuideColor);
+  const ImU32 color = ImGui::GetColorU32(imgui_color(shown_colors().guide));
   const std::vector<Camera::Pixel> points = pixels_of(*ui.guide, ui.camera, ui.show.is_stereo);
   std::vector<Camera::Pixel> way = points;
   if (ui.guide->mode == StrokeMode::curve) {

@@ -57,8 +57,8 @@ void draw_falcon(haptics::HapticRig& rig) {
   if (status == nullptr) return;
   ImGui::PushTextWrapPos(0.0F);
   const bool has_fault = status->state == haptics::FalconState::fault;
-  ImGui::TextColored(has_fault ? ImVec4{1.0F, 0.45F, 0.40F, 1.0F} : ImVec4{0.7F, 0.9F, 1.0F, 1.0F},
-                     "%s", falcon_words(*status).c_str());
+  const ThemeColors& colors = shown_colors();
+  colored_text(has_fault ? colors.error : colors.told, falcon_words(*status));
   ImGui::PopTextWrapPos();
   if (has_fault && button("Home it again", whole_width())) rig.home_falcon();
 }
@@ -225,15 +225,17 @@ void draw_feel(HapticChoice& choice, const HapticControl& control) {
 
 /// Stopping and going on are two buttons, so that a second click on the one is never the other.
 void draw_stop(UiState& ui, DocumentThread& document) {
+  ImGui::PushStyleColor(ImGuiCol_Text, kOnStopColor);
   ImGui::PushStyleColor(ImGuiCol_Button, kStopColor);
   if (button("STOP the force (Space)", whole_width()))
     perform(Command::emergency_stop, ui, document);
-  ImGui::PopStyleColor();
+  ImGui::PopStyleColor(2);
   if (!ui.is_force_stopped) return;
-  ImGui::TextColored({1.0F, 0.45F, 0.40F, 1.0F}, "The force is stopped.");
-  ImGui::PushStyleColor(ImGuiCol_Button, {0.25F, 0.55F, 0.25F, 1.0F});
+  colored_text(shown_colors().error, "The force is stopped.");
+  ImGui::PushStyleColor(ImGuiCol_Text, kOnStopColor);
+  ImGui::PushStyleColor(ImGuiCol_Button, kGiveColor);
   if (button("Give the force again", whole_width())) perform(Command::give_force, ui, document);
-  ImGui::PopStyleColor();
+  ImGui::PopStyleColor(2);
 }
 
 /// What the running rig does: recording, plots, the governor and the faults of the last tick.
@@ -286,7 +288,7 @@ void draw_state(UiState& ui, HapticControl& control) {
     const std::uint32_t fault = seen.tick.faults & (1U << bit);
     if (fault == 0) continue;
     ImGui::PushTextWrapPos(0.0F);
-    ImGui::TextColored({1.0F, 0.75F, 0.4F, 1.0F}, "%s", haptics::fault_text(fault));
+    colored_text(shown_colors().warning, haptics::fault_text(fault));
     ImGui::PopTextWrapPos();
   }
 }

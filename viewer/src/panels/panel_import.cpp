@@ -262,7 +262,7 @@ bool is_entered() {
 
 void draw_answers(UiState& ui, const MeshOffer* offer, bool enters, DocumentThread& document) {
   const std::string fault = offer != nullptr ? obstacle(ui.import, *offer) : "";
-  if (!fault.empty()) ImGui::TextColored({0.95F, 0.45F, 0.35F, 1.0F}, "%s", fault.c_str());
+  if (!fault.empty()) colored_text(shown_colors().error, fault);
   const bool is_ready = offer != nullptr && fault.empty();
   ImGui::BeginDisabled(!is_ready);
   const bool wants = button("Import##mesh") || (is_ready && enters);

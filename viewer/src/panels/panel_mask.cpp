@@ -20,7 +20,7 @@ void draw_mask_row(std::initializer_list<Command> commands, UiState& ui, Documen
     is_first = false;
     const CommandInfo& info = info_of(command);
     if (button((std::string(info.title) + "##mask").c_str())) perform(command, ui, document);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.chord);
+    say_key(command, ui);
   }
 }
 

@@ -16,13 +16,13 @@ namespace {
 ImVec4 color_of(Notice::Kind kind) {
   switch (kind) {
     case Notice::Kind::error:
-      return {1.0F, 0.45F, 0.40F, 1.0F};
+      return imgui_color(shown_colors().error);
     case Notice::Kind::warning:
-      return {1.0F, 0.80F, 0.40F, 1.0F};
+      return imgui_color(shown_colors().warning);
     case Notice::Kind::done:
       break;
   }
-  return {0.80F, 0.90F, 0.80F, 1.0F};
+  return imgui_color(shown_colors().done);
 }
 
 /// One message over the picture, its lower edge at `bottom`; true when it is dismissed.

@@ -6,14 +6,12 @@
 
 #include <imgui.h>
 
+#include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {
 namespace {
-
-const ImVec4 kMaskColor{0.95F, 0.95F, 0.98F, 0.95F};
-const ImVec4 kTrimColor{1.0F, 0.55F, 0.30F, 0.95F};
 
 ImVec2 as_screen(const Camera::Pixel& pixel) {
   return {static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
@@ -70,13 +68,15 @@ void draw_trim_curve(const OutlineDrag& drag, const UiState& ui, ImU32 line, flo
 
 void draw_outline(const UiState& ui) {
   if (ui.outline && ui.outline->form == DragForm::curve) {
-    return draw_trim_curve(*ui.outline, ui, ImGui::GetColorU32(kTrimColor), 1.6F * unit());
+    const ImU32 line = ImGui::GetColorU32(imgui_color(shown_colors().trim_line));
+    return draw_trim_curve(*ui.outline, ui, line, 1.6F * unit());
   }
   if (!ui.outline || ui.outline->points.size() < 2) return;
   const OutlineDrag& drag = *ui.outline;
   assert(drag.form != DragForm::brush);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const ImVec4 color = drag.is_trim ? kTrimColor : kMaskColor;
+  const ThemeColors& colors = shown_colors();
+  const ImVec4 color = imgui_color(drag.is_trim ? colors.trim_line : colors.mask_line);
   const ImU32 line = ImGui::GetColorU32(color);
   const float width = 1.6F * unit();
   std::vector<ImVec2> points;

@@ -325,8 +325,9 @@ void draw_pieces(UiState& ui, DocumentThread& document) {
 void draw_switch_hint(const UiState& ui) {
   if (!ui.pieces.refused_at) return;
   const std::string& name = ui.other_under_pointer;
-  const std::string text = (name.empty() ? "This" : in_quotes(name)) +
-                           " is another piece.\nAlt+Q or a double click: sculpt it";
+  const std::string& key = ui.keys.text_of(Command::piece_switch);
+  const std::string text = (name.empty() ? "This" : in_quotes(name)) + " is another piece.\n" +
+                           (key.empty() ? "A" : key + " or a") + " double click: sculpt it";
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const float margin = 4.0F * unit();
   const float most = ImGui::GetIO().DisplaySize.x - size.x - 2.0F * margin;

@@ -47,7 +47,7 @@ void draw_told(const std::vector<float>& pressures, const CurveFrame& frame, ImD
                        IM_COL32(150, 96, 66, 150));
   }
   const auto last = static_cast<double>(pressures.back());
-  list.AddLine(frame.at(last, 0.0), frame.at(last, 1.0), IM_COL32(255, 190, 130, 160));
+  list.AddLine(frame.at(last, 0.0), frame.at(last, 1.0), ImGui::GetColorU32(ImGuiCol_CheckMark));
 }
 
 void draw_curve(const PressureCurve& curve, const CurveFrame& frame, ImDrawList& list) {

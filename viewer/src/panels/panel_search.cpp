@@ -46,11 +46,14 @@ bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_
   const ImGuiCol color = is_possible_now ? ImGuiCol_Text : ImGuiCol_TextDisabled;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
   const std::string label = entry.title + "##found" + entry.place;
+  // Weak letters are not read on the mark's colour.
+  const ImGuiCol mark = is_possible_now ? ImGuiCol_Header : ImGuiCol_FrameBg;
+  ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(mark));
   // One row is marked: the one that Enter means.
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered,
-                        ImGui::GetStyleColorVec4(is_marked ? ImGuiCol_Header : ImGuiCol_FrameBg));
+                        ImGui::GetStyleColorVec4(is_marked ? mark : ImGuiCol_FrameBg));
   const bool is_clicked = choice(label.c_str(), is_marked);
-  ImGui::PopStyleColor(2);
+  ImGui::PopStyleColor(3);
   const ImVec4 beside = ImGui::GetStyleColorVec4(is_marked ? ImGuiCol_Text : ImGuiCol_TextDisabled);
   ImGui::SameLine(220.0F * unit());
   ImGui::TextColored(beside, "%s", entry.place.c_str());
@@ -64,7 +67,7 @@ bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_
 void draw_search(UiState& ui, DocumentThread& document) {
   SearchChoice& search = ui.search;
   if (!search.is_open) return;
-  const std::vector<SearchEntry> found = found_entries(search);
+  const std::vector<SearchEntry> found = found_entries(search, ui.keys);
   search.at = std::min(search.at, found.empty() ? 0 : found.size() - 1);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5F * screen.x, ImGui::GetFrameHeight() + 24.0F * unit()},

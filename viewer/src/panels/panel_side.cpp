@@ -2,6 +2,7 @@
 // The panels at the sides: tools, brush, view, what the clay is.
 #include <algorithm>
 #include <cassert>
+#include <cfloat>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -57,13 +58,17 @@ void draw_tool(const ToolInfo& info, UiState& ui) {
     const ImGuiCol color = is_on ? ImGuiCol_Header : ImGuiCol_ButtonHovered;
     list.AddRectFilled(low, ImGui::GetItemRectMax(), ImGui::GetColorU32(color), 3.0F * u);
   }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.help);
+  const std::string& key = ui.keys.text_of(&info);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip(key.empty() ? "%s" : "%s\n%s", info.help, key.c_str());
+  }
   draw_tool_picture(info.picture, list, {low.x + 4.0F * u, low.y + 3.0F * u}, 54.0F * u);
   const float letters = ImGui::GetFontSize();
   const float small = 0.74F * letters;
-  const char key[2] = {info.key == kNoKey ? ' ' : info.key, '\0'};
-  list.AddText(ImGui::GetFont(), small, {low.x + size.x - small - 2.0F * u, low.y + 3.0F * u},
-               ImGui::GetColorU32(ImGuiCol_TextDisabled), key);
+  const float key_width = ImGui::GetFont()->CalcTextSizeA(small, FLT_MAX, 0.0F, key.c_str()).x;
+  const float key_left = low.x + size.x - std::max(small, key_width) - 2.0F * u;
+  list.AddText(ImGui::GetFont(), small, {key_left, low.y + 3.0F * u},
+               ImGui::GetColorU32(ImGuiCol_TextDisabled), key.c_str());
   const float width = ImGui::CalcTextSize(info.title).x;
   list.AddText({low.x + 0.5F * (size.x - width), low.y + size.y - letters - 2.0F * u},
                ImGui::GetColorU32(ImGuiCol_Text), info.title);
@@ -184,12 +189,16 @@ void draw_stroke_mode(Brush& brush) {
   }
 }
 
-void draw_symmetry(Brush& brush) {
+void draw_symmetry(UiState& ui) {
+  Brush& brush = ui.brush;
   check("X##mirror", brush.mirror.x);
+  say_key(Command::symmetry_x, ui);
   ImGui::SameLine();
   check("Y##mirror", brush.mirror.y);
+  say_key(Command::symmetry_y, ui);
   ImGui::SameLine();
   check("Z##mirror", brush.mirror.z);
+  say_key(Command::symmetry_z, ui);
   slide("Around", brush.radial.count, 1, 64);
   int axis = static_cast<int>(brush.radial.axis);
   if (pick_one("Axis", axis, {"x", "y", "z"})) brush.radial.axis = static_cast<std::size_t>(axis);
@@ -274,8 +283,10 @@ void draw_brush(UiState& ui, DocumentThread& document) {
   } else {
     slide("Size", brush.radius_mm, 0.05, 100.0, "%.2f mm", true);
   }
+  say_key(Command::brush_size, ui);
   check("Size on screen", brush.is_screen_size);
   slide("Strength", brush.strength, kLeastStrength, 1.0, "%.2f");
+  say_key(Command::brush_strength, ui);
   check("Invert", brush.is_inverted);
   draw_shape(ui);
   if (is_profiled(brush.action)) {
@@ -286,7 +297,7 @@ void draw_brush(UiState& ui, DocumentThread& document) {
   draw_tool_options(ui, document);
   draw_drag_form(ui);
   if (is_painted(brush.action)) draw_mask_edits(ui, document);
-  if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(brush);
+  if (ImGui::CollapsingHeader("Symmetry", ImGuiTreeNodeFlags_DefaultOpen)) draw_symmetry(ui);
   const bool has_stroke = ImGui::CollapsingHeader("Stroke");
   note_widget("Stroke");
   if (has_stroke) {
@@ -316,15 +327,19 @@ void draw_view(UiState& ui) {
   if (pick_one("Shading", shading, {"Clay", "Plain", "Curvature", "Detail"})) {
     ui.show.shading = static_cast<Shading>(shading);
   }
+  say_key(Command::shading_next, ui);
   check("Wireframe", ui.show.has_wires);
+  say_key(Command::wires, ui);
   ImGui::SameLine();
   check("Occlusion", ui.show.has_occlusion);
   check("Stereo", ui.show.is_stereo);
+  say_key(Command::stereo, ui);
   ImGui::SameLine();
   check("Planes", ui.show.has_planes);
   ImGui::SameLine();
   check("Marks", ui.show.has_pins);
   check("Slice", ui.show.has_slice);
+  say_key(Command::slice, ui);
   if (ui.show.has_slice) {
     pick_one("Across", ui.show.slice_axis, {"x", "y", "z"});
     slide("Place", ui.show.slice_position, -1.0, 1.0, "%.2f");

@@ -22,6 +22,9 @@ struct FrameState {
   std::optional<std::pair<double, double>> latency_ms;
 };
 
+/// While the pointer is over the widget made last: the key that does the same, if one does.
+void say_key(const KeyAim& aim, const UiState& ui);
+
 // Each draws from the state and writes choices into it. What they do goes through commands and
 // requests.
 void draw_outline(const UiState& ui);
@@ -46,6 +49,8 @@ void draw_measure_marks(const UiState& ui);
 void draw_measures(UiState& ui, DocumentThread& document);
 void draw_search(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
+void draw_keys(UiState& ui);
+void draw_presets(UiState& ui);
 void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
 void draw_toasts(MessageLog& log);

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "panels/gui.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -13,12 +15,7 @@ namespace {
 constexpr float kGround = 0.60F;  // of the picture's height, from its top
 constexpr float kTall = 0.7F;     // of its width
 
-constexpr ImU32 kAir = IM_COL32(24, 24, 27, 255);
-constexpr ImU32 kClay = IM_COL32(150, 88, 58, 255);
-constexpr ImU32 kMasked = IM_COL32(52, 40, 40, 255);
-constexpr ImU32 kEdge = IM_COL32(236, 168, 124, 255);
-constexpr ImU32 kBefore = IM_COL32(200, 200, 205, 150);
-constexpr ImU32 kHand = IM_COL32(150, 205, 245, 255);
+ImU32 paint_of(const Paint& paint) { return ImGui::GetColorU32(imgui_color(paint)); }
 
 float bump(float x, float radius) {
   const float fraction = 1.0F - (x / radius) * (x / radius);
@@ -62,14 +59,14 @@ class Painter {
       const float x1 = x_of(n + 1);
       const bool is_dark = is_masked && std::abs(0.5F * (x0 + x1)) < 0.45F;
       list_.AddQuadFilled(at(x0, height(x0)), at(x1, height(x1)), bottom(x1), bottom(x0),
-                          is_dark ? kMasked : kClay);
+                          paint_of(is_dark ? colors_.masked : colors_.clay));
     }
     list_.Flags = flags;
     std::array<ImVec2, kStrips + 1> points;
     for (int n = 0; n <= kStrips; ++n) {
       points[static_cast<std::size_t>(n)] = at(x_of(n), height(x_of(n)));
     }
-    list_.AddPolyline(points.data(), kStrips + 1, kEdge, 0, line_);
+    list_.AddPolyline(points.data(), kStrips + 1, paint_of(colors_.edge), 0, line_);
   }
 
   /// Dashed, where it differs.
@@ -79,22 +76,23 @@ class Painter {
       const float x1 = x_of(n + 2);
       const float before = height_of(picture.before, x0);
       if (std::abs(before - height_of(picture.after, x0)) < 0.04F) continue;
-      list_.AddLine(at(x0, before), at(x1, height_of(picture.before, x1)), kBefore, line_);
+      list_.AddLine(at(x0, before), at(x1, height_of(picture.before, x1)), paint_of(colors_.before),
+                    line_);
     }
   }
 
   void circle(float x, float y, float radius) {
-    list_.AddCircle(at(x, y), 0.5F * radius * width_, kHand, 0, line_);
+    list_.AddCircle(at(x, y), 0.5F * radius * width_, paint_of(colors_.hand), 0, line_);
   }
 
   void rectangle(float x0, float y0, float x1, float y1) {
-    list_.AddRect(at(x0, y1), at(x1, y0), kHand, 0.0F, 0, line_);
+    list_.AddRect(at(x0, y1), at(x1, y0), paint_of(colors_.hand), 0.0F, 0, line_);
   }
 
   void arrow(float x0, float y0, float x1, float y1) {
     const ImVec2 from = at(x0, y0);
     const ImVec2 to = at(x1, y1);
-    list_.AddLine(from, to, kHand, line_);
+    list_.AddLine(from, to, paint_of(colors_.hand), line_);
     head(to, std::atan2(to.y - from.y, to.x - from.x));
   }
 
@@ -102,7 +100,7 @@ class Painter {
   void arc(float x, float y, float radius, float from, float to) {
     const float r = 0.5F * radius * width_;
     list_.PathArcTo(at(x, y), r, from, to, 16);
-    list_.PathStroke(kHand, 0, line_);
+    list_.PathStroke(paint_of(colors_.hand), 0, line_);
     const ImVec2 middle = at(x, y);
     const ImVec2 end{middle.x + r * std::cos(to), middle.y + r * std::sin(to)};
     head(end, to + 1.5708F);
@@ -123,9 +121,10 @@ class Painter {
     const auto corner = [&](float turn) {
       return ImVec2{to.x - size * std::cos(angle + turn), to.y - size * std::sin(angle + turn)};
     };
-    list_.AddTriangleFilled(to, corner(0.5F), corner(-0.5F), kHand);
+    list_.AddTriangleFilled(to, corner(0.5F), corner(-0.5F), paint_of(colors_.hand));
   }
 
+  const ThemeColors& colors_ = shown_colors();
   ImDrawList& list_;
   ImVec2 corner_;
   float width_;
@@ -178,7 +177,8 @@ void draw_hand(HandMark hand, Painter& painter) {
 
 void draw_tool_picture(const ActionPicture& picture, ImDrawList& list, ImVec2 corner, float width) {
   assert(width > 0.0F);
-  list.AddRectFilled(corner, {corner.x + width, corner.y + kTall * width}, kAir, 0.06F * width);
+  list.AddRectFilled(corner, {corner.x + width, corner.y + kTall * width},
+                     paint_of(shown_colors().air), 0.06F * width);
   Painter painter(list, corner, width);
   painter.clay(picture.after, picture.is_masked);
   painter.before(picture);

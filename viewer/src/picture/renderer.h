@@ -108,12 +108,21 @@ struct SlicePicture {
   friend bool operator==(const SlicePicture&, const SlicePicture&) = default;
 };
 
+/// The colours behind the clay at the lower and the upper edge of the picture, 0 to 1, encoded as
+/// sRGB.
+struct Ground {
+  Vec3 low{0.160, 0.164, 0.176};
+  Vec3 high{0.349, 0.356, 0.369};
+  friend bool operator==(const Ground&, const Ground&) = default;
+};
+
 /// All that a picture shows but the blocks.
 struct Picture {
   Lens lens;
   std::optional<Lens>
       right_lens;  ///< stereo: `lens` for the left half of the frame, this the right
   std::vector<ShownPiece> pieces{ShownPiece{}};  ///< blocks of others are not drawn
+  Ground ground;
   Shading shading = Shading::matcap;
   bool has_wires = false;     ///< the triangles' edges over the shading
   bool has_occlusion = true;  ///< ambient occlusion (Shading::plain)
