@@ -479,11 +479,8 @@ void App::take_pieces(bool was_idle) {
     ui_.pieces.refused_at.reset();
     asked_.reset();
   }
-  const std::optional<PieceDrag>& drag = ui_.pieces.drag;
   // Shown there until the document has it there, or has refused.
-  const Placement& there = ui_.clay.pieces->active_piece().look.placement;
-  const bool is_done = drag && drag->is_sent && (are_same(drag->placement, there) || was_idle);
-  if (is_done || (drag && drag->piece != active)) ui_.pieces.drag.reset();
+  if (is_drag_done(ui_, was_idle)) ui_.pieces.drag.reset();
   const auto answer = document_.answer();
   const bool is_over = ui_.is_pointer_over_clay_view && answer;
   ui_.other_under_pointer = is_over ? answer->other : "";

@@ -80,7 +80,10 @@ void App::add_pieces(Picture& picture) const {
     if (!look.is_visible) continue;
     ShownPiece shown{list.pieces[n].key, look.placement};
     shown.is_active = n == list.active;
-    if (shown.is_active) shown.placement = shown_placement(ui_);
+    if (shown.is_active) {
+      shown.placement = shown_placement(ui_);
+      shown.scale = shown_factor(ui_);
+    }
     if (look.color) shown.color = linear_of(*look.color);
     picture.pieces.push_back(shown);
   }

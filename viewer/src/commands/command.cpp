@@ -31,11 +31,12 @@ constexpr CommandInfo kCommands[] = {
     {Command::operations, "Edit", "Whole clay...", "Ctrl+W"},
     {Command::pieces, "Piece", "Pieces", "Ctrl+P"},
     {Command::piece_switch, "Piece", "Sculpt the one here", "Alt+Q"},
-    {Command::piece_gizmo, "Piece", "Move and turn", "Shift+G"},
+    {Command::piece_gizmo, "Piece", "Move, turn and scale", "Shift+G"},
     {Command::piece_ball, "Piece", "Add a ball", "Shift+A"},
     {Command::piece_import, "Piece", "Add a mesh...", "Ctrl+Alt+I"},
     {Command::piece_duplicate, "Piece", "Duplicate", "Shift+D"},
     {Command::piece_remove, "Piece", "Remove", "Delete"},
+    {Command::piece_split, "Piece", "Split by parts", ""},
     {Command::piece_bed, "Piece", "Drop to bed", "End"},
     {Command::piece_bed_all, "Piece", "Drop all to bed", "Shift+End"},
     {Command::piece_flat, "Piece", "Lay flat", "Alt+End"},
@@ -324,6 +325,9 @@ bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
     case Command::piece_remove:
       edit_piece(RemovePiece{ui.clay.pieces->active_piece().look.name}, document);
       return true;
+    case Command::piece_split:
+      edit_piece(SplitPiece{ui.clay.pieces->active_piece().look.name}, document);
+      return true;
     case Command::piece_bed:
       document.send(StandPiece{StandPiece::Where::bed});
       return true;
@@ -361,6 +365,7 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
     case Command::piece_ball:
     case Command::piece_import:
     case Command::piece_duplicate:
+    case Command::piece_split:
     case Command::piece_bed:
     case Command::piece_bed_all:
     case Command::piece_flat:

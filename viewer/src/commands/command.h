@@ -39,6 +39,7 @@ enum class Command {
   piece_import,
   piece_duplicate,
   piece_remove,
+  piece_split,
   piece_bed,
   piece_bed_all,
   piece_flat,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -164,7 +165,9 @@ struct BrushDrag {
 struct PieceDrag {
   PieceKey piece = 0;
   Placement placement = {};
-  bool is_sent = false;  ///< to the document; while it is held it is not
+  bool is_sent = false;      ///< to the document; while it is held it is not
+  double factor = 1.0;       ///< how many times as large it is shown
+  std::int64_t changes = 0;  ///< ClayState::changes when it was sent
 };
 
 /// What the window remembers of pieces.
@@ -182,6 +185,9 @@ struct PieceChoice {
   Vec3 position_mm;
   Vec3 turns_deg;
   Quat turned;  ///< what those turns are
+  Vec3 size_mm;
+  double percent = 100.0;
+  bool is_typing_size = false;
   bool is_typing = false;
   /// Where a press was on another piece, while the pointer is near: it is said how to sculpt that.
   std::optional<Camera::Pixel> refused_at;

@@ -127,11 +127,12 @@ PixelRect area_of(const EyeView& eye, const Box3& box_mm) {
 
 PieceView view_of_piece(const ShownPiece& piece, const GlBlocks* blocks, const EyeView& eye,
                         const ClipPlane& cut) {
-  PieceView view{
-      piece.piece, blocks, {unplaced(piece.placement, eye.lens), eye.part}, cut, piece.color};
+  const Lens own = shrunk(unplaced(piece.placement, eye.lens), piece.scale);
+  PieceView view{piece.piece, blocks, {own, eye.part}, cut, piece.color};
   if (!cut) return view;
   view.cut->normal = turned_back(piece.placement, cut->normal);
   view.cut->offset += dot(cut->normal, piece.placement.position_mm);
+  view.cut->offset /= piece.scale;
   return view;
 }
 

@@ -37,10 +37,11 @@ struct ShownPiece {
   Placement placement = {};                  ///< of its blocks; of unit length
   std::optional<Vec3> color = std::nullopt;  ///< linear; none: clay's own
   bool is_active = true;  ///< the one that is sculpted: where two have one surface it is seen
+  double scale = 1.0;     ///< lengths of its blocks times this: how large it is about to become
   friend bool operator==(const ShownPiece& a, const ShownPiece& b) {
     return a.piece == b.piece && a.placement.position_mm == b.placement.position_mm &&
            a.placement.orientation == b.placement.orientation && a.color == b.color &&
-           a.is_active == b.is_active;
+           a.is_active == b.is_active && a.scale == b.scale;
   }
 };
 
