@@ -64,8 +64,10 @@ TEST_F(CliEdit, ScalesAndSplitsThePiece) {
   const Ended scaled = edit({"--scale", "1.5"});
   ASSERT_EQ(scaled.status, 0) << scaled.err;
   EXPECT_NEAR(volume(), ball_volume(15.0), 0.002 * ball_volume(15.0));
-  const json info = run_argil({"info", path("q.vdb"), "--json"}).json();
-  EXPECT_DOUBLE_EQ(info["voxel_mm"].get<double>(), 0.375);
+  const auto larger = io::load_sculpture(path("q.vdb"));
+  ASSERT_TRUE(larger);
+  EXPECT_TRUE(larger.value().is_plain());
+  EXPECT_DOUBLE_EQ(larger.value().clay().options().voxel_mm, 0.375);
   // Two caps of the ball, apart.
   ASSERT_TRUE(io::write_mesh(path("slab.stl"), box_mesh({30.0, 30.0, 6.0})));
   const Ended split = edit({"--difference", path("slab.stl"), "--split", "0.001", "--scale", "2"});

@@ -370,21 +370,6 @@ void App::take_events(const std::vector<InputEvent>& events) {
   }
 }
 
-/// An image joins those that one may emboss with, and is taken for the next stroke; anything else
-/// is opened.
-void App::take_dropped(const std::vector<std::string>& files) {
-  if (open_dialog(ui_) != Dialog::none || files.empty()) return;
-  const fs::path file = files.front();
-  if (extension_of(file) != ".png") return open_file(file, ui_, document_);
-  const auto added = add_alpha(home_, file);
-  if (!added) return tell(notice_of(added.error()));
-  ui_.brush.action = Action::emboss;
-  ui_.brush.is_stamp = false;
-  ui_.alphas.clear();
-  ui_.wants_alphas = true;
-  document_.send(LoadAlpha{added.value()});
-}
-
 /// Once: a palette that is not looked at costs nothing.
 void App::read_wanted_alphas() {
   if (!std::exchange(ui_.wants_alphas, false) || !ui_.alphas.empty()) return;
@@ -460,6 +445,8 @@ void App::take_news() {
     note_recent();
     find_left_projects();
   }
+  follow_references();
+  take_dropped_alpha();
   start_empty();
 }
 
@@ -667,6 +654,7 @@ void App::draw_panels() {
   draw_info(ui_);
   draw_history(ui_, document_);
   draw_print(ui_, document_);
+  draw_references(ui_);
   draw_pieces(ui_, document_);
   draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
@@ -680,6 +668,7 @@ void App::draw_panels() {
   files_.draw(ui_, document_);
   draw_save_question(ui_, document_);
   draw_left_question(ui_, document_);
+  draw_dropped_image(ui_);
   draw_help(ui_);
   draw_search(ui_, document_);
   draw_task(ui_, document_);

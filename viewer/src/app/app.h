@@ -88,6 +88,9 @@ class App {
   void note_recent();
   void read_wanted_alphas();
   void take_dropped(const std::vector<std::string>& files);
+  void take_dropped_alpha();
+  void follow_references();
+  void add_references(Picture& picture) const;
   void start_empty();
   void keep_settings();
   void note_measurements();
@@ -137,6 +140,9 @@ class App {
   double next_frame_s_ = 0.0;       ///< when one is due without an event
   std::int64_t framed_ = 0;         ///< ClayState::number of the clay that the camera has framed
   std::int64_t framed_pieces_ = 0;  ///< ClayState::pieces_added that the camera has framed
+  std::vector<ReferenceImage> kept_references_;  ///< as they are in the file
+  std::int64_t referenced_clay_ = 0;             ///< ClayState::number of the clay that they are of
+  std::filesystem::path referenced_file_;
   std::optional<PieceKey> active_piece_;  ///< of the last frame
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with

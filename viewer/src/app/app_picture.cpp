@@ -39,6 +39,7 @@ Picture App::picture() const {
   picture.lens = parts.front().camera.lens(content);
   if (parts.size() > 1) picture.right_lens = parts.back().camera.lens(content);
   add_pieces(picture);
+  add_references(picture);
   if (gizmo) add_gizmo(*gizmo, picture.lens, ui_.pieces.handle, picture);
   picture.shading = show.shading;
   picture.has_wires = show.has_wires;

@@ -74,6 +74,7 @@ constexpr CommandInfo kCommands[] = {
     {Command::slice, "View", "Slice", "Shift+W"},
     {Command::stereo, "View", "Stereo", "Shift+Z"},
     {Command::panels, "View", "Panels", "Tab"},
+    {Command::references, "View", "Reference images", ""},
     {Command::figures, "View", "Clay's figures", ""},
     {Command::print, "View", "Print", ""},
     {Command::measure_distance, "Measure", "Distance", "Shift+U"},
@@ -198,6 +199,9 @@ bool perform_on_view(Command command, UiState& ui) {
       return true;
     case Command::panels:
       ui.panels.has_tools = ui.panels.has_brush = ui.panels.has_view = !ui.panels.has_tools;
+      return true;
+    case Command::references:
+      ui.panels.has_references = !ui.panels.has_references;
       return true;
     case Command::history:
       ui.panels.has_history = !ui.panels.has_history;
@@ -527,6 +531,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
   if (ui.panels.is_import_open) return Dialog::import_mesh;
   if (ui.panels.is_export_open) return Dialog::export_mesh;
   if (ui.panels.is_operations_open) return Dialog::operations;
+  if (ui.dropped_image) return Dialog::dropped_image;
   return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
 }
 
@@ -538,6 +543,7 @@ bool close_dialogs(UiState& ui) noexcept {
   ui.panels.is_export_open = false;
   ui.panels.is_import_open = false;
   ui.panels.has_help = false;
+  ui.dropped_image.reset();
   ui.asks_to_save = false;
   ui.file_wish = FileWish::none;
   ui.after_saving = AfterSaving::nothing;

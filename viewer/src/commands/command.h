@@ -69,6 +69,7 @@ enum class Command {
   slice,
   stereo,
   panels,
+  references,
   figures,
   print,
   measure_distance,

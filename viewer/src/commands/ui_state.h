@@ -27,6 +27,7 @@
 #include "document/settings.h"
 #include "picture/camera.h"
 #include "picture/gizmo.h"
+#include "picture/reference_image.h"
 #include "picture/renderer.h"
 #include "picture/slice_chord.h"
 #include "picture/stereo.h"
@@ -58,6 +59,7 @@ struct PanelState {
   bool has_haptics = false;
   bool has_print = false;
   bool has_pieces = false;
+  bool has_references = false;
   bool has_measures = false;
   bool has_info = false;
   bool has_history = false;
@@ -78,7 +80,8 @@ enum class Dialog {
   import_mesh,
   export_mesh,
   operations,
-  new_clay
+  new_clay,
+  dropped_image
 };
 
 /// What a file is asked for.
@@ -91,6 +94,7 @@ enum class FileWish {
   import_piece,
   stamp,
   alpha,
+  reference,
   firmware,
   path
 };
@@ -247,6 +251,10 @@ struct UiState {
   Settings settings;
   std::vector<float> pressures;    ///< of the pen's last strokes, as it told them, the newest last
   std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
+
+  std::vector<ReferenceImage> references;
+  std::optional<std::filesystem::path> dropped_image;  ///< it is asked what it is for
+  std::optional<std::filesystem::path> dropped_alpha;  ///< to emboss with
 
   std::vector<std::filesystem::path> recent;
   std::vector<LeftProject> left_projects;  ///< newest first; without the one that is open

@@ -16,6 +16,7 @@
 #include "argil/engine/render.h"
 
 #include "picture/camera.h"
+#include "picture/reference_image.h"
 
 namespace argil::viewer {
 
@@ -126,6 +127,7 @@ struct Picture {
   std::vector<LineMark> lines;
   std::vector<HandleMark> handles;
   std::optional<SlicePicture> slice;
+  std::vector<ReferenceMark> references;  ///< the later over the earlier
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 
