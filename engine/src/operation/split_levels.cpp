@@ -33,7 +33,7 @@ constexpr std::uint32_t kNoShell = std::numeric_limits<std::uint32_t>::max();
 
 /// A node of a coarser level is an average over its neighbours, which lie so far away at most: as
 /// near as that to another part's half of the gap it holds some of that part's distances.
-constexpr double kMixedVoxels = 3.5;
+constexpr double kGapVoxels = 3.5;
 
 // ---- solids of a surface -----------------------------------------------------------------------
 
@@ -258,7 +258,7 @@ std::vector<PartLeaf> LevelSplitter::leaves_of(int level, const Coord& origin) c
   for (int n = 0; n < kLeafNodes; ++n) {
     const Vec3 p = node_mm(origin.offsetBy(n >> 6, n >> 3 & 7, n & 7), voxel);
     const std::uint32_t owner = parts_.owner(p, hint);
-    const double reach = std::abs(static_cast<double>(values[n])) + kMixedVoxels * voxel;
+    const double reach = std::abs(static_cast<double>(values[n])) + kGapVoxels * voxel;
     const bool is_mixed = values[n] > 0.0F && std::any_of(near.begin(), near.end(), [&](auto part) {
                             return part != owner && parts_.distance(part, p, reach) < reach;
                           });

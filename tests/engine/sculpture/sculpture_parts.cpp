@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,18 +28,19 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kVoxel = 0.3;
-constexpr double kPi = 3.14159265358979;
+constexpr double kPartVoxel = 0.3;
 
 struct Ball {
   Vec3 at;
   double radius_mm = 0.0;
-  double volume_mm3() const { return 4.0 / 3.0 * kPi * radius_mm * radius_mm * radius_mm; }
+  double volume_mm3() const {
+    return 4.0 / 3.0 * std::numbers::pi * radius_mm * radius_mm * radius_mm;
+  }
   double distance(const Vec3& p) const { return length(p - at) - radius_mm; }
 };
 
 /// Balls apart from each other, as one clay.
-Clay clay_of(const std::vector<Ball>& balls) {
+Clay clay_of_balls(const std::vector<Ball>& balls) {
   Box3 box;
   for (const Ball& ball : balls) {
     const Vec3 half{ball.radius_mm, ball.radius_mm, ball.radius_mm};
@@ -50,18 +52,18 @@ Clay clay_of(const std::vector<Ball>& balls) {
     for (const Ball& ball : balls) least = std::min(least, ball.distance(p));
     return least;
   };
-  return Clay::from_distance(nearest, box, {kVoxel, 0.1}).value();
+  return Clay::from_distance(nearest, box, {kPartVoxel, 0.1}).value();
 }
 
 double volume(const Clay& clay) { return signed_volume(extract_surface(clay)); }
 
 /// The farthest that the surface lies from a ball's, in voxels.
-double miss(const Clay& clay, const Ball& ball) {
+double farthest_miss(const Clay& clay, const Ball& ball) {
   double most = 0.0;
   for (const Vec3& p : extract_surface(clay).positions) {
     most = std::max(most, std::abs(ball.distance(p)));
   }
-  return most / kVoxel;
+  return most / kPartVoxel;
 }
 
 std::vector<std::string> names_of(const Sculpture& sculpture) {
@@ -75,7 +77,7 @@ std::vector<std::string> names_of(const Sculpture& sculpture) {
 // ---- places ------------------------------------------------------------------------------------
 
 TEST(SculpturePlaces, AreChangedTogetherInOneStep) {
-  Sculpture sculpture(clay_of({{{}, 4.0}}));
+  Sculpture sculpture(clay_of_balls({{{}, 4.0}}));
   ASSERT_TRUE(sculpture.apply(CopyPiece{"Clay", "B"}));
   const std::uint64_t before = sculpture.hash();
   const int depth = sculpture.undo_depth();
@@ -94,7 +96,7 @@ TEST(SculpturePlaces, AreChangedTogetherInOneStep) {
 }
 
 TEST(SculpturePlaces, AreAllRefusedWhereOneIs) {
-  Sculpture sculpture(clay_of({{{}, 4.0}}));
+  Sculpture sculpture(clay_of_balls({{{}, 4.0}}));
   ASSERT_TRUE(sculpture.apply(CopyPiece{"Clay", "B"}));
   ASSERT_TRUE(sculpture.apply(ChangePiece{.name = "B", .is_locked = true}));
   const std::uint64_t before = sculpture.hash();
@@ -117,7 +119,7 @@ TEST(SculpturePlaces, AreAllRefusedWhereOneIs) {
 
 TEST(SculptureScale, KeepsTheShapeTheDetailAndThePointThatItIsScaledAbout) {
   for (const double factor : {0.37, 2.0, 13.0}) {
-    Clay clay = clay_of({{{}, 4.0}, {{3.0, 1.0, 0.0}, 2.5}});
+    Clay clay = clay_of_balls({{{}, 4.0}, {{3.0, 1.0, 0.0}, 2.5}});
     const Clay former = copy_of(clay);
     Sculpture sculpture(std::move(clay));
     const Placement there{{5.0, -3.0, 8.0}, normalized(Quat{0.9, 0.1, -0.3, 0.2})};
@@ -126,7 +128,7 @@ TEST(SculptureScale, KeepsTheShapeTheDetailAndThePointThatItIsScaledAbout) {
     const Vec3 fixed{1.0, 2.0, 3.0};
     ASSERT_TRUE(sculpture.apply(ScalePiece{"Clay", factor, fixed}));
     const Clay& scaled = sculpture.clay();
-    EXPECT_DOUBLE_EQ(scaled.options().voxel_mm, factor * kVoxel);
+    EXPECT_DOUBLE_EQ(scaled.options().voxel_mm, factor * kPartVoxel);
     ASSERT_EQ(scaled.level_count(), former.level_count());
     for (int level = 0; level < scaled.level_count(); ++level) {
       const auto n = static_cast<std::size_t>(level);
@@ -154,7 +156,7 @@ TEST(SculptureScale, KeepsTheShapeTheDetailAndThePointThatItIsScaledAbout) {
 }
 
 TEST(SculptureScale, ByTwoAndBackKeepsEveryBitAndThePlace) {
-  Clay clay = clay_of({{{}, 4.0}, {{3.0, 1.0, 0.0}, 2.5}});
+  Clay clay = clay_of_balls({{{}, 4.0}, {{3.0, 1.0, 0.0}, 2.5}});
   ASSERT_TRUE(clay.apply(Operation(Cut{{0.0, 0.0, 1.0}, {0.2, 0.3, 1.0}, false})));
   Sculpture sculpture(std::move(clay));
   const std::uint64_t before = sculpture.hash();
@@ -166,7 +168,7 @@ TEST(SculptureScale, ByTwoAndBackKeepsEveryBitAndThePlace) {
 }
 
 TEST(SculptureScale, TakesTheMaskAlong) {
-  Clay clay = clay_of({{{}, 4.0}});
+  Clay clay = clay_of_balls({{{}, 4.0}});
   Stroke stroke;
   stroke.tool.action = Action::mask;
   stroke.tool.radii_mm = {2.0, 2.0, 2.0};
@@ -189,7 +191,7 @@ TEST(SculptureScale, TakesTheMaskAlong) {
 }
 
 TEST(SculptureScale, RefusesWhatNoClayCanBeAndStopsWhenAsked) {
-  Sculpture sculpture(clay_of({{{}, 4.0}}));
+  Sculpture sculpture(clay_of_balls({{{}, 4.0}}));
   const std::uint64_t before = sculpture.hash();
   const auto refuses = [&](const ScalePiece& scale, const char* message) {
     const auto done = sculpture.apply(scale);
@@ -222,19 +224,20 @@ TEST(SculptureScale, RefusesWhatNoClayCanBeAndStopsWhenAsked) {
 
 TEST(SculptureSplit, SolidsThatAreFarApartKeepTheirBits) {
   const Ball small{{0.0, 0.0, 0.0}, 3.0};
-  Sculpture sculpture(clay_of({small}));
+  Sculpture sculpture(clay_of_balls({small}));
   const Clay alone = copy_of(sculpture.clay());
   AddPiece add;
   add.look.name = "Far";
   add.look.placement.position_mm = {14.0, 0.0, 0.0};
-  add.clay = std::make_shared<const Clay>(clay_of({{{}, 4.0}}));
+  add.clay = std::make_shared<const Clay>(clay_of_balls({{{}, 4.0}}));
   ASSERT_TRUE(sculpture.apply(add));
   ASSERT_TRUE(sculpture.apply(MergePiece{"Clay", "Far"}));
   const std::uint64_t before = sculpture.hash();
   ASSERT_TRUE(sculpture.apply(SplitPiece{"Clay"}));
   EXPECT_EQ(names_of(sculpture), (std::vector<std::string>{"Clay", "Clay 2"}));
   EXPECT_EQ(sculpture.look(sculpture.active()).name, "Clay");
-  EXPECT_LT(miss(sculpture.clay(0), {{14.0, 0.0, 0.0}, 4.0}), 0.06) << "the larger is the first";
+  EXPECT_LT(farthest_miss(sculpture.clay(0), {{14.0, 0.0, 0.0}, 4.0}), 0.06)
+      << "the larger is the first";
   EXPECT_EQ(sculpture.clay(1).hash(), alone.hash());
   const std::uint64_t after = sculpture.hash();
   // Also while one that came is the active one.
@@ -251,9 +254,10 @@ TEST(SculptureSplit, SolidsThatNearlyTouchBecomeWhatTheyAre) {
   for (const double gap_voxels : {0.8, 1.5, 4.0, 9.0}) {
     SCOPED_TRACE(gap_voxels);
     const Ball large{{0.04, -0.03, 0.11}, 4.0};
-    const Ball small{{0.04 + 4.0 + gap_voxels * kVoxel + 3.0, -0.03, 0.11}, 3.0};
-    const Clay together = clay_of({large, small});
-    const double usual = std::max(miss(clay_of({large}), large), miss(clay_of({small}), small));
+    const Ball small{{0.04 + 4.0 + gap_voxels * kPartVoxel + 3.0, -0.03, 0.11}, 3.0};
+    const Clay together = clay_of_balls({large, small});
+    const double usual = std::max(farthest_miss(clay_of_balls({large}), large),
+                                  farthest_miss(clay_of_balls({small}), small));
     Sculpture sculpture(copy_of(together));
     ASSERT_TRUE(sculpture.apply(SplitPiece{"Clay"}));
     ASSERT_EQ(sculpture.piece_count(), 2U);
@@ -262,13 +266,13 @@ TEST(SculptureSplit, SolidsThatNearlyTouchBecomeWhatTheyAre) {
       const Clay& part = sculpture.clay(n);
       EXPECT_THAT(part.validate(), IsEmpty());
       EXPECT_NEAR(volume(part), ball.volume_mm3(), 0.01 * ball.volume_mm3());
-      EXPECT_LT(miss(part, ball), usual + 0.05);
+      EXPECT_LT(farthest_miss(part, ball), usual + 0.05);
       // Distances around it, too, where the other was.
-      const Clay alone = clay_of({ball});
+      const Clay alone = clay_of_balls({ball});
       for (double x = 0.2; x < 3.0; x += 0.1) {
         const Vec3 way = n == 0 ? Vec3{1.0, 0.0, 0.0} : Vec3{-1.0, 0.0, 0.0};
-        const Vec3 p = ball.at + (ball.radius_mm + x * kVoxel) * way;
-        EXPECT_NEAR(part.distance_at(p), alone.distance_at(p), 0.2 * kVoxel) << x;
+        const Vec3 p = ball.at + (ball.radius_mm + x * kPartVoxel) * way;
+        EXPECT_NEAR(part.distance_at(p), alone.distance_at(p), 0.2 * kPartVoxel) << x;
       }
     }
   }
@@ -284,7 +288,7 @@ TEST(SculptureSplit, ACavityStaysWithItsSolidAndWhatIsInItDoesNot) {
     return std::min({shell, hollow, loose.distance(p)});
   };
   const Box3 box{{-7.0, -7.0, -7.0}, {18.0, 7.0, 7.0}};
-  Sculpture sculpture(Clay::from_distance(formula, box, {kVoxel, 0.1}).value());
+  Sculpture sculpture(Clay::from_distance(formula, box, {kPartVoxel, 0.1}).value());
   ASSERT_TRUE(sculpture.apply(SplitPiece{"Clay"}));
   ASSERT_EQ(sculpture.piece_count(), 3U);
   const std::vector<double> wanted{Ball{{}, 7.0}.volume_mm3() - Ball{{}, 4.5}.volume_mm3(),
@@ -301,11 +305,12 @@ TEST(SculptureSplit, ACavityStaysWithItsSolidAndWhatIsInItDoesNot) {
 
 TEST(SculptureSplit, CrumbsStayWithTheLargest) {
   const std::vector<Ball> balls{{{}, 5.0}, {{9.0, 0.0, 0.0}, 2.5}, {{0.0, 7.0, 0.0}, 0.7}};
-  Sculpture sculpture(clay_of(balls));
+  Sculpture sculpture(clay_of_balls(balls));
   SplitPiece split{"Clay", 0.01};
   ASSERT_TRUE(sculpture.apply(split));
   ASSERT_EQ(sculpture.piece_count(), 2U);
-  EXPECT_NEAR(volume(sculpture.clay(0)) + volume(sculpture.clay(1)), volume(clay_of(balls)), 0.1);
+  EXPECT_NEAR(volume(sculpture.clay(0)) + volume(sculpture.clay(1)), volume(clay_of_balls(balls)),
+              0.1);
   EXPECT_LT(sculpture.clay(0).distance_at(balls[2].at), 0.0);
   const auto again = sculpture.apply(split);
   ASSERT_FALSE(again);
@@ -319,7 +324,7 @@ TEST(SculptureSplit, CrumbsStayWithTheLargest) {
 }
 
 TEST(SculptureSplit, KeepsLookPlaceAndMaskAndRefusesWhatItCannot) {
-  Clay clay = clay_of({{{}, 4.0}, {{9.0, 0.0, 0.0}, 3.0}});
+  Clay clay = clay_of_balls({{{}, 4.0}, {{9.0, 0.0, 0.0}, 3.0}});
   ASSERT_TRUE(clay.apply(MaskEdit::fill));
   Sculpture sculpture(std::move(clay), {.name = "Pair"});
   ChangePiece look{"Pair"};
@@ -390,7 +395,7 @@ TEST(SolidsOfASurface, AreNumberedByVolumeWithTheirCavities) {
 }
 
 TEST(SculptureGolden, PartsAndSizeHaveTheSameBitsForAnyThreadCount) {
-  const Clay clay = clay_of({{{}, 4.0}, {{7.4, 0.0, 0.0}, 3.0}, {{0.0, 7.0, 2.0}, 2.5}});
+  const Clay clay = clay_of_balls({{{}, 4.0}, {{7.4, 0.0, 0.0}, 3.0}, {{0.0, 7.0, 2.0}, 2.5}});
   std::uint64_t wanted = 0;
   for (const std::size_t threads : {1, 2, 7}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

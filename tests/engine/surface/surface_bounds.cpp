@@ -13,7 +13,7 @@
 namespace argil {
 namespace {
 
-Box3 box_of(const TriangleMesh& mesh) {
+Box3 box_of_mesh(const TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& p : mesh.positions) box.include(p);
   return box;
@@ -28,7 +28,7 @@ TEST(SurfaceBounds, AreThoseOfTheWholeSurface) {
     if (seed % 2 == 0) {
       ASSERT_TRUE(clay.apply(Operation(Cut{{0.3, 0.1, 1.0}, {0.1, 0.2, 1.0}, false})));
     }
-    const Box3 wanted = box_of(extract_surface(clay));
+    const Box3 wanted = box_of_mesh(extract_surface(clay));
     const Box3 box = surface_bounds_mm(clay);
     EXPECT_EQ(box.min, wanted.min) << seed;
     EXPECT_EQ(box.max, wanted.max) << seed;

@@ -358,9 +358,13 @@ TEST_F(DocumentPiecesTest, NothingIsDoneToAHiddenPieceNorMergedWithIt) {
   edit(hide);
   settle_all();
   const auto steps = thread_.state().steps->names.size();
-  const std::vector<Request> requests{
-      DoStep{MaskEdit::fill}, DoStep{Operation(Offset{1.0})}, TrimPiece{right_half(), {}},
-      DoStep{PieceEdit{MergePiece{"Ball", "Clay"}}}, DoStep{PieceEdit{MergePiece{"Clay", "Ball"}}}};
+  const std::vector<Request> requests{DoStep{MaskEdit::fill},
+                                      DoStep{Operation(Offset{1.0})},
+                                      TrimPiece{right_half(), {}},
+                                      DoStep{PieceEdit{MergePiece{"Ball", "Clay"}}},
+                                      DoStep{PieceEdit{MergePiece{"Clay", "Ball"}}},
+                                      DoStep{PieceEdit{ScalePiece{"Clay", 2.0}}},
+                                      DoStep{PieceEdit{SplitPiece{"Clay"}}}};
   for (const Request& request : requests) thread_.send(request);
   settle_all();
   const std::vector<std::string> told = errors();

@@ -116,7 +116,8 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   open_first();
 }
 
-App::~App() = default;
+/// Nobody waits for a picture that is still being written.
+App::~App() { stops_still_ = true; }
 
 /// What the command line names, else the newest project that a killed window left and that is still
 /// asked about; else nothing, and start_empty() makes a ball.
@@ -240,6 +241,7 @@ Result<void> App::frame() {
   shown_force_ = steadied(felt_now, shown_force_, ui_.camera.pixel_mm_at(ui_.camera.target_mm()),
                           arrow_mm_per_n());
   if (auto turned = turn_table(); !turned) return turned;
+  step_still();
   note_last_frame();
   note_motion(now);
   ui_.chord = chord();
@@ -308,7 +310,10 @@ double App::wait_s() const {
 
 /// When there is something new to see though nothing happens until then.
 double App::next_frame_s(double now_s) const {
-  if (frames_to_settle_ > 0 || gui_.has_waiting_input() || ui_.turntable_left > 0) return now_s;
+  if (frames_to_settle_ > 0 || gui_.has_waiting_input() || ui_.turntable_left > 0 ||
+      ui_.still.done) {
+    return now_s;
+  }
   double next_s = log_.next_s();
   const auto every = [&](bool is_wanted, double s) {
     if (is_wanted) next_s = std::min(next_s, now_s + s);
@@ -526,13 +531,22 @@ void App::follow_camera() {
   if (gestures_.is_stroke_open()) return;
   const double now = window_->now_s();
   if (is_view_told() || now - view_sent_s_ < kViewEveryS) return;
-  shown_view_ = ui_.camera.display_view();
+  shown_view_ = wanted_view();
   view_sent_s_ = now;
   document_.look(shown_view_);
 }
 
+/// In more detail than the window shows while a larger picture is made.
+DisplayView App::wanted_view() const {
+  DisplayView view = ui_.camera.display_view();
+  const double detail = still_detail();
+  view.pixel_rad /= detail;
+  view.pixel_mm /= detail;
+  return view;
+}
+
 bool App::is_view_told() const {
-  const DisplayView view = ui_.camera.display_view();
+  const DisplayView view = wanted_view();
   return view.eye_mm == shown_view_.eye_mm && view.pixel_rad == shown_view_.pixel_rad &&
          view.pixel_mm == shown_view_.pixel_mm;
 }
@@ -669,6 +683,7 @@ void App::draw_panels() {
   draw_save_question(ui_, document_);
   draw_left_question(ui_, document_);
   draw_dropped_image(ui_);
+  draw_still(ui_);
   draw_help(ui_);
   draw_search(ui_, document_);
   draw_task(ui_, document_);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <deque>
+#include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +24,7 @@
 #include "panels/gui.h"
 #include "panels/panels.h"
 #include "picture/renderer.h"
+#include "picture/still.h"
 
 namespace argil::viewer {
 
@@ -82,6 +86,14 @@ class App {
   void note_last_frame();
   Result<void> take_shots();
   Result<void> turn_table();
+  Picture bare_picture() const;
+  double still_detail() const;
+  DisplayView wanted_view() const;
+  std::filesystem::path still_file() const;
+  void step_still();
+  void write_still();
+  void wait_for_still();
+  void end_still(Notice notice);
   void take_screenshot();
   bool has_ended();
   void drop_untouched();
@@ -111,7 +123,13 @@ class App {
   int wait_frames_ = 0;                       ///< until its next step
   std::optional<Vec3> pointed_at_;            ///< where the widget of its step was two frames ago
   std::vector<std::filesystem::path> shots_;  ///< to be stored once this frame is drawn
-  int turntable_ = 0;                         ///< which one is being made
+  std::optional<Still> still_;                ///< that is being drawn, of still_picture_
+  Picture still_picture_;
+  std::pair<int, int> still_part_;  ///< the size of its parts
+  std::filesystem::path still_path_;
+  std::atomic<bool> stops_still_{false};
+  std::future<Result<void>> still_written_;  ///< while it is written
+  int turntable_ = 0;                        ///< which one is being made
 
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file

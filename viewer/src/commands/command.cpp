@@ -24,6 +24,7 @@ constexpr CommandInfo kCommands[] = {
     {Command::export_mesh, "File", "Export for printing...", "Ctrl+E"},
     {Command::screenshot, "File", "Screenshot", "F12"},
     {Command::turntable, "File", "Turntable", "Shift+F12"},
+    {Command::still, "File", "Still picture...", ""},
     {Command::quit, "File", "Quit", "Ctrl+Q"},
     {Command::undo, "Edit", "Undo", "Ctrl+Z"},
     {Command::redo, "Edit", "Redo", "Ctrl+Shift+Z"},
@@ -512,6 +513,9 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
     case Command::turntable:
       ui.turntable_left = kTurntableFrames;
       break;
+    case Command::still:
+      ui.still.is_open = true;
+      break;
     case Command::emergency_stop:
       ui.wants_emergency_stop = true;
       break;
@@ -532,6 +536,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
   if (ui.panels.is_export_open) return Dialog::export_mesh;
   if (ui.panels.is_operations_open) return Dialog::operations;
   if (ui.dropped_image) return Dialog::dropped_image;
+  if (ui.still.is_open) return Dialog::still;
   return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
 }
 
@@ -544,6 +549,8 @@ bool close_dialogs(UiState& ui) noexcept {
   ui.panels.is_import_open = false;
   ui.panels.has_help = false;
   ui.dropped_image.reset();
+  ui.still.is_open = false;
+  ui.still.done.reset();
   ui.asks_to_save = false;
   ui.file_wish = FileWish::none;
   ui.after_saving = AfterSaving::nothing;

@@ -82,6 +82,7 @@ enum class Command {
   help,
   screenshot,
   turntable,
+  still,
   messages,
   emergency_stop,
   give_force

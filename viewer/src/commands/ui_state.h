@@ -31,6 +31,7 @@
 #include "picture/renderer.h"
 #include "picture/slice_chord.h"
 #include "picture/stereo.h"
+#include "picture/still.h"
 
 namespace argil::viewer {
 
@@ -81,7 +82,8 @@ enum class Dialog {
   export_mesh,
   operations,
   new_clay,
-  dropped_image
+  dropped_image,
+  still
 };
 
 /// What a file is asked for.
@@ -200,6 +202,13 @@ struct PieceChoice {
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
 
+/// A picture larger than the window.
+struct StillChoice {
+  bool is_open = false;  ///< the dialog
+  StillOptions options;
+  std::optional<double> done;  ///< how much of it, while it is made
+};
+
 /// Pictures of a turntable: three seconds of a film.
 inline constexpr int kTurntableFrames = 72;
 
@@ -271,7 +280,8 @@ struct UiState {
   std::vector<Vec3> drawn_path_mm;    ///< so far, while it is dragged
   bool is_clutched = false;           ///< the hand moves without the tool
   std::string other_under_pointer;    ///< the name of the piece that the pointer is over; "" none
-  int turntable_left = 0;             ///< pictures to come, of kTurntableFrames once around
+  StillChoice still;
+  int turntable_left = 0;  ///< pictures to come, of kTurntableFrames once around
 
   // What the document thread reports, copied once a frame.
   ClayState clay;

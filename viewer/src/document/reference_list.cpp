@@ -87,7 +87,7 @@ std::string line_of(const ReferenceImage& image, const fs::path& folder) {
   return line.append((is_inside ? near : image.file).string()).append("\n");
 }
 
-Result<std::shared_ptr<const ReferencePixels>> pixels_of(const fs::path& file) {
+Result<std::shared_ptr<const ReferencePixels>> reference_pixels(const fs::path& file) {
   auto read = io::read_png(file);
   if (!read) return read.error();
   io::ClearImage& image = read.value();
@@ -115,7 +115,7 @@ ReferenceList read_references(const fs::path& project) {
                                      " names no reference image; take the line out"});
       continue;
     }
-    if (auto pixels = pixels_of(image->file)) {
+    if (auto pixels = reference_pixels(image->file)) {
       image->pixels = std::move(pixels).value();
     } else {
       list.problems.push_back(pixels.error());
@@ -141,7 +141,7 @@ Result<void> write_references(const fs::path& project, const std::vector<Referen
 }
 
 Result<ReferenceImage> reference_of(const fs::path& file, StraightView view, double width_mm) {
-  auto pixels = pixels_of(file);
+  auto pixels = reference_pixels(file);
   if (!pixels) return pixels.error();
   ReferenceImage image;
   std::error_code error;

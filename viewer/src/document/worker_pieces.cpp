@@ -5,8 +5,10 @@
 #include <cassert>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "argil/engine/surface.h"
 #include "argil/io/clay_check.h"
@@ -19,6 +21,17 @@
 #include "picture/piece_frame.h"
 
 namespace argil::viewer {
+namespace {
+
+/// The names of pieces whose clay an edit changes or takes in.
+std::vector<std::string> worked_pieces(const PieceEdit& edit) {
+  if (const auto* merge = std::get_if<MergePiece>(&edit)) return {merge->name, merge->other};
+  if (const auto* scale = std::get_if<ScalePiece>(&edit)) return {scale->name};
+  if (const auto* split = std::get_if<SplitPiece>(&edit)) return {split->name};
+  return {};
+}
+
+}  // namespace
 
 /// Of the active piece.
 const PieceLook& DocumentWorker::active_look() {
@@ -47,13 +60,12 @@ Result<void> DocumentWorker::check_step(const DoStep& wanted) {
   if (std::holds_alternative<io::HistoryStep>(wanted.step)) return {};
   const Sculpture& sculpture = document_.sculpture();
   if (const auto* edit = std::get_if<PieceEdit>(&wanted.step)) {
-    const auto* merge = std::get_if<MergePiece>(edit);
-    if (merge == nullptr) return {};
-    for (const std::string& name : {merge->name, merge->other}) {
+    for (const std::string& name : worked_pieces(*edit)) {
       const auto at = sculpture.find(name);
       if (!at || sculpture.look(*at).is_visible) continue;  // that there is none is said later
       return Error{ErrorKind::bad_input,
-                   "the piece " + in_quotes(name) + " is hidden; show it before it is merged"};
+                   "the piece " + in_quotes(name) + " is hidden; show it before it is " +
+                       (std::holds_alternative<MergePiece>(*edit) ? "merged" : "changed")};
     }
     return {};
   }

@@ -84,7 +84,7 @@ bool have_same_clay(const Picture& a, const Picture& b) {
   return a.lens == b.lens && a.right_lens == b.right_lens && a.pieces == b.pieces &&
          a.shading == b.shading && a.has_wires == b.has_wires &&
          a.has_occlusion == b.has_occlusion && a.is_moving == b.is_moving && a.slice == b.slice &&
-         a.references == b.references;
+         a.references == b.references && a.ground == b.ground;
 }
 
 /// Whether a pixel of the clay shows what is around it.
@@ -284,6 +284,8 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
   // One triangle that covers the screen, made from the numbers of its corners; OpenGL's core
   // profile wants some vertex array all the same.
   passes_.background.use();
+  const auto& [bottom, top] = picture.ground;
+  passes_.background.set("rows", bottom, top - bottom);
   glBindVertexArray(passes_.nothing.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthMask(GL_TRUE);

@@ -282,7 +282,7 @@ double wanted_factor(const Vec3& now, const Vec3& wanted) {
 
 /// How large the active piece is, by its surface, in its own frame: one side decides for all three.
 /// Its foot stays where it is.
-void draw_size(UiState& ui, DocumentThread& document) {
+void draw_piece_size(UiState& ui, DocumentThread& document) {
   constexpr double kMostMm = 1e6;
   constexpr double kLeastPercent = 0.1;
   constexpr double kMostPercent = 1e5;
@@ -335,7 +335,7 @@ void draw_place(UiState& ui, DocumentThread& document) {
     if (is_turned) wanted.orientation = choices.turned = orientation_of(choices.turns_deg);
     place_active(wanted, ui, document);
   }
-  draw_size(ui, document);
+  draw_piece_size(ui, document);
   check("Gizmo", choices.has_gizmo);
   ImGui::SameLine();
   command_button(Command::piece_bed, "Drop to bed##piece", ui, document);

@@ -117,6 +117,8 @@ Lens shrunk(Lens lens, double scale) noexcept {
   if (!lens.is_parallel) return lens;
   lens.tan_x /= scale;
   lens.tan_y /= scale;
+  lens.shift_x /= scale;
+  lens.shift_y /= scale;
   return lens;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/core/result.h"
@@ -127,6 +128,9 @@ struct Picture {
   std::vector<LineMark> lines;
   std::vector<HandleMark> handles;
   std::optional<SlicePicture> slice;
+  /// Of a part of a picture: where it begins and ends between the bottom and the top of the whole,
+  /// whose background it has.
+  std::pair<double, double> ground{0.0, 1.0};
   std::vector<ReferenceMark> references;  ///< the later over the earlier
   friend bool operator==(const Picture&, const Picture&) = default;
 };
