@@ -28,13 +28,13 @@ bool is_sound(const StillOptions& options) {
 }
 
 void draw_still_choice(StillChoice& still) {
-  ImGui::TextDisabled("What the window shows of the clay, without panels");
-  ImGui::TextDisabled("and marks; each side 16 to 16384 pixels.");
+  ImGui::TextDisabled("The clay as the window shows it, without");
+  ImGui::TextDisabled("marks; each side 16 to 16384 pixels.");
   ImGui::PushItemWidth(110.0F * unit());
   pick_pixels("Width, pixels", still.options.width);
   pick_pixels("Height, pixels", still.options.height);
+  slide("Samples across each", still.options.samples, 1, StillOptions::kMostSamples);
   ImGui::PopItemWidth();
-  slide("Samples across a pixel", still.options.samples, 1, StillOptions::kMostSamples);
   ImGui::BeginDisabled(!is_sound(still.options));
   if (button("Save the still")) still.done = 0.0;
   ImGui::EndDisabled();
