@@ -4,11 +4,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "argil/engine/mask_filter.h"
 #include "argil/engine/operation.h"
+#include "argil/engine/sculpture.h"
 #include "argil/io/solid_file.h"
 
 #include "commands.h"
@@ -20,12 +22,16 @@ namespace argil::cli {
 namespace {
 
 /// An operation as the command line names it; `file` is of the other solid, read when it is due.
-/// A mask edit replaces the operation when there is one.
+/// An edit of the mask or of the piece itself, whose name is filled in then, replaces the operation
+/// when there is one.
 struct NamedOperation {
   std::string name;
   Operation operation;
   std::string file;
   std::optional<std::variant<MaskEdit, MaskFilter>> mask = {};
+  std::optional<std::variant<ScalePiece, SplitPiece>> piece = {};
+
+  bool is_operation() const noexcept { return !mask && !piece; }
 };
 
 struct EditOptions {
@@ -75,7 +81,7 @@ template <class T>
 T& last_operation(EditOptions& options, const std::string& option, const char* after) {
   T* last =
       options.operations.empty() ? nullptr : std::get_if<T>(&options.operations.back().operation);
-  if (last != nullptr && !options.operations.back().mask) return *last;
+  if (last != nullptr && options.operations.back().is_operation()) return *last;
   throw CLI::ValidationError(option + " belongs to " + after + "; name it right after that");
 }
 
@@ -140,6 +146,10 @@ void read_operation(const std::string& option, const std::string& text, EditOpti
     add_turn(text, last_operation<Combine>(options, option, kSolids));
   } else if (option == "--mask") {
     list.push_back({"mask " + text, {}, "", parse_mask_edit(text)});
+  } else if (option == "--scale") {
+    list.push_back({"scale", {}, "", {}, ScalePiece{"", parse_number(option, text, kPositive)}});
+  } else if (option == "--split") {
+    list.push_back({"split", {}, "", {}, SplitPiece{"", parse_number(option, text, {})}});
   } else {
     list.push_back({"voxel", Resample{parse_number(option, text, kPositive)}, ""});
   }
@@ -161,8 +171,28 @@ void read_operations(const CLI::App& command, EditOptions& options) {
   throw CLI::ValidationError("no operation was named; give at least one, such as --offset 0.4");
 }
 
-Result<OperationReport> apply_one(const NamedOperation& named, Clay& clay,
+/// What is done to the active piece as a piece.
+Result<OperationReport> apply_edit(const NamedOperation& named, Sculpture& sculpture,
+                                   const Progress& progress) {
+  const auto done = std::visit(
+      [&](auto edit) {
+        edit.name = sculpture.look(sculpture.active()).name;
+        return sculpture.apply(PieceEdit(std::move(edit)), progress);
+      },
+      *named.piece);
+  if (!done) return done.error();
+  OperationReport report;
+  report.replaced_levels = true;
+  for (const LevelStats& level : sculpture.clay().level_stats()) {
+    report.changed_leaves += level.leaves;
+  }
+  return report;
+}
+
+Result<OperationReport> apply_one(const NamedOperation& named, Sculpture& sculpture,
                                   const Progress& progress) {
+  if (named.piece) return apply_edit(named, sculpture, progress);
+  Clay& clay = sculpture.clay();
   if (named.mask) {
     const auto* filter = std::get_if<MaskFilter>(&*named.mask);
     auto ok = filter != nullptr ? filter_mask(clay, *filter, progress)
@@ -180,26 +210,28 @@ Result<OperationReport> apply_one(const NamedOperation& named, Clay& clay,
   return clay.apply(operation, progress);
 }
 
-Result<Json> run_one(const NamedOperation& named, Clay& clay, const Progress& progress) {
+Result<Json> run_one(const NamedOperation& named, Sculpture& sculpture, const Progress& progress) {
   const Stopwatch watch;
-  const auto report = apply_one(named, clay, progress);
+  const auto report = apply_one(named, sculpture, progress);
   if (!report) return Error{report.error().kind, named.name + ": " + report.error().message};
   Json json;
   json["operation"] = named.name;
   json["changed_leaves"] = report.value().changed_leaves;
   json["replaced_levels"] = report.value().replaced_levels;
+  json["pieces"] = sculpture.piece_count();
   json["seconds"] = watch.seconds();
   return json;
 }
 
-std::string edit_text(const Json& json, const Clay& clay, const std::filesystem::path& output) {
+std::string edit_text(const Json& json, const std::string& levels,
+                      const std::filesystem::path& output) {
   std::string text;
   for (const Json& one : json["operations"]) {
     text += one["operation"].get<std::string>() + ": " +
             grouped(one["changed_leaves"].get<std::int64_t>()) + " leaves changed in " +
             number(one["seconds"].get<double>()) + " s\n";
   }
-  return text + levels_text(clay.level_stats()) + "hash " + json["hash"].get<std::string>() +
+  return text + levels + "hash " + json["hash"].get<std::string>() +
          "\nsaved '" + output.string() + "'\n";
 }
 
@@ -224,24 +256,24 @@ Result<Outcome> run_edit(const EditOptions& options, const Progress& progress) {
     return selected.error();
   }
   if (auto free = sculpture.check_unlocked(); !free) return named(options.project, free.error());
-  Clay& clay = sculpture.clay();
   Outcome outcome;
   outcome.json["operations"] = Json::array();
   for (const NamedOperation& named : options.operations) {
-    auto done = run_one(named, clay, progress);
+    auto done = run_one(named, sculpture, progress);
     if (!done) return done.error();
     outcome.json["operations"].push_back(std::move(done).value());
     if (auto stop = check_interrupt(); !stop) return stop.error();
   }
+  outcome.json["levels"] = to_json(sculpture.clay().level_stats());
+  const std::string levels = levels_text(sculpture.clay().level_stats());
   // That another piece was worked on is no reason that it is worked on next.
   if (auto back = sculpture.apply(SelectPiece{active}); !back) return back.error();
   if (auto saved = replace_project(options.output, sculpture); !saved) return saved.error();
   outcome.json["recovered_strokes"] = opened.value().recovered_steps;
   outcome.json["hash"] = hex(sculpture.hash());
   outcome.json["start_hash"] = hex(first_hash);
-  outcome.json["levels"] = to_json(clay.level_stats());
   outcome.json["seconds"] = watch.seconds();
-  outcome.text = edit_text(outcome.json, clay, options.output);
+  outcome.text = edit_text(outcome.json, levels, options.output);
   return outcome;
 }
 
@@ -271,6 +303,9 @@ void add_edit(CLI::App& app, Selected& selected) {
   add("--at", "X,Y,Z", "after one of these three: where the other's origin goes");
   add("--turn", "W,X,Y,Z", "after one of these three: the quaternion that turns the other");
   add("--voxel-mm", "H", "resample to another finest voxel");
+  add("--scale", "FACTOR", "so many times as large, about its origin; the voxel grows with it");
+  add("--split", "SHARE",
+      "each solid a piece of its own; less than SHARE of the largest one's volume stays with it");
   add("--mask", "WHAT",
       "the mask: clear, invert, blur, fill, sharpen, grow:MM, shrink:MM or cavity:RADIUS[,FACTOR]");
   command->parse_complete_callback([command, options] { read_operations(*command, *options); });

@@ -17,7 +17,7 @@ namespace argil::cli {
 namespace {
 
 constexpr int kLeastPixels = 16;
-constexpr int kMostPixels = 8192;
+constexpr int kMostPixels = 16384;
 
 struct RenderCommand {
   std::string input;
@@ -72,7 +72,7 @@ void read_size(const std::string& text, RenderOptions& options) {
     return;
   }
   throw CLI::ValidationError("--size is '" + text +
-                             "'; must be WIDTHxHEIGHT in pixels, each 16 to 8192, as in 1280x960");
+                             "'; must be WIDTHxHEIGHT in pixels, each 16 to 16384, as in 1280x960");
 }
 
 bool is_project(const std::filesystem::path& file) { return file.extension() == ".vdb"; }

@@ -24,7 +24,7 @@ def render(subject: Union[Clay, MeshLike], *, size: Tuple[int, int] = (640, 480)
     Parameters
     ----------
     size : (width, height)
-        16 to 8192 pixels each.
+        16 to 16384 pixels each.
     toward : (3,)
         From the object to the camera.
     up : (3,)

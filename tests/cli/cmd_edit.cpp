@@ -60,6 +60,33 @@ TEST_F(CliEdit, RunsOperationsInTheirOrder) {
   EXPECT_LT(volume(), 0.5 * ball_volume(11.0));
 }
 
+TEST_F(CliEdit, ScalesAndSplitsThePiece) {
+  const Ended scaled = edit({"--scale", "1.5"});
+  ASSERT_EQ(scaled.status, 0) << scaled.err;
+  EXPECT_NEAR(volume(), ball_volume(15.0), 0.002 * ball_volume(15.0));
+  const auto larger = io::load_sculpture(path("q.vdb"));
+  ASSERT_TRUE(larger);
+  EXPECT_TRUE(larger.value().is_plain());
+  EXPECT_DOUBLE_EQ(larger.value().clay().options().voxel_mm, 0.375);
+  // Two caps of the ball, apart.
+  ASSERT_TRUE(io::write_mesh(path("slab.stl"), box_mesh({30.0, 30.0, 6.0})));
+  const Ended split = edit({"--difference", path("slab.stl"), "--split", "0.001", "--scale", "2"});
+  ASSERT_EQ(split.status, 0) << split.err;
+  EXPECT_EQ(split.json()["operations"][0]["pieces"], 1);
+  EXPECT_EQ(split.json()["operations"][1]["operation"], "split");
+  EXPECT_EQ(split.json()["operations"][1]["pieces"], 2);
+  const auto pieces = io::load_sculpture(path("q.vdb"));
+  ASSERT_TRUE(pieces);
+  ASSERT_EQ(pieces.value().piece_count(), 2U);
+  EXPECT_EQ(pieces.value().look(1).name, "Clay 2");
+  EXPECT_DOUBLE_EQ(pieces.value().clay(0).options().voxel_mm, 0.5) << "scaled after it was split";
+  EXPECT_DOUBLE_EQ(pieces.value().clay(1).options().voxel_mm, 0.25);
+  EXPECT_THAT(edit({"--split", "0.001"}).err, HasSubstr("split: the piece 'Clay' is one solid"));
+  EXPECT_THAT(edit({"--scale", "1"}).err, HasSubstr("scale: the factor is 1"));
+  EXPECT_THAT(edit({"--scale", "-1"}).err, HasSubstr("--scale"));
+  EXPECT_THAT(edit({"--scale", "2", "--at", "0,0,1"}).err, HasSubstr("--at belongs to"));
+}
+
 TEST_F(CliEdit, ChangesTheMask) {
   const std::string start = run_argil({"info", path("p.vdb"), "--json"}).json()["hash"];
   const Ended run = edit({"--mask", "fill", "--offset", "0.5", "--mask", "blur"});

@@ -95,9 +95,15 @@ inline Operation any_operation(std::mt19937& random) {
 /// Of a few pieces that may be there or not: what cannot be is refused.
 inline PieceEdit any_piece_edit(std::mt19937& random) {
   const auto name = [&] { return std::string(random() % 2 == 0 ? "Clay" : "Other"); };
-  switch (random() % 6) {
+  switch (random() % 9) {
     case 0:
       return SelectPiece{name()};
+    case 6:
+      return PlacePieces{{{"Clay", {any_place(random), {}}}, {"Other", {any_place(random), {}}}}};
+    case 7:
+      return ScalePiece{name(), random() % 2 == 0 ? 1.1 : 0.9, any_place(random)};
+    case 8:
+      return SplitPiece{name()};
     case 1:
       return CopyPiece{name(), "Other"};
     case 2:

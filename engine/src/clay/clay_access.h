@@ -32,6 +32,10 @@ struct ClayAccess {
   /// Puts another mask in the place of the clay's, as one undo step. Errors  bad_input while a
   /// stroke is open; memory where `make` throws bad_alloc, which leaves all as it was.
   static Result<void> change_mask(Clay& clay, const MaskMaker& make);
+  /// Puts other levels in the place of the clay's, as one undo step; they hold the invariants of
+  /// docs/field.md. No stroke is open (assert). Throws bad_alloc with nothing changed.
+  static void replace_levels(Clay& clay, std::unique_ptr<LevelStack> levels,
+                             const ClayOptions& options);
   /// What each can take back and repeat goes to the other. Both are the same bits, and neither has
   /// an open stroke.
   static void swap_histories(Clay& one, Clay& other) noexcept;

@@ -229,6 +229,15 @@ Result<std::int64_t> Clay::State::run(
   }
 }
 
+void ClayAccess::replace_levels(Clay& clay, std::unique_ptr<LevelStack> levels,
+                                const ClayOptions& options) {
+  Clay::State& state = *clay.state_;
+  const ChangingCall call(state.user);
+  assert(levels && !state.open);
+  state.history.make_room();
+  state.push_undo(state.replace_levels({std::move(levels), options}));
+}
+
 void ClayAccess::swap_histories(Clay& one, Clay& other) noexcept {
   assert(!one.state_->open && !other.state_->open);
   std::swap(one.state_->history, other.state_->history);

@@ -148,8 +148,8 @@ Result<void> validate(const TriangleMesh& mesh, const RenderOptions& options) {
     return option_out_of_range("colors", std::to_string(options.colors.size()) + " long",
                                "as long as the mesh has triangles, or empty");
   }
-  if (auto size = validate_count("width", options.width, 16, 8192); !size) return size;
-  if (auto size = validate_count("height", options.height, 16, 8192); !size) return size;
+  if (auto size = validate_count("width", options.width, 16, 16384); !size) return size;
+  if (auto size = validate_count("height", options.height, 16, 16384); !size) return size;
   if (auto count = validate_count("samples", options.samples, 1, 8); !count) return count;
   return validate_camera(options);
 }

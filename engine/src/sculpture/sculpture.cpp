@@ -263,7 +263,10 @@ bool Sculpture::State::turn_last(bool is_undo) {
   follow();
   make_room();
   std::vector<SculptureStep>& from = is_undo ? undo_steps : redo_steps;
-  if (from.empty() || !turn(from.back(), is_undo)) return false;
+  if (from.empty()) return false;
+  // A step may bring several pieces back.
+  pieces.reserve(pieces.size() + from.back().parts.size());
+  if (!turn(from.back(), is_undo)) return false;
   (is_undo ? redo_steps : undo_steps).push_back(std::move(from.back()));
   from.pop_back();
   return true;

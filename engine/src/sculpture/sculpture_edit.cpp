@@ -4,14 +4,27 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <memory>
 #include <new>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "argil/core/free_name.h"
 #include "argil/engine/clay_copy.h"
 #include "argil/engine/import.h"
+#include "argil/engine/surface.h"
 
+#include "clay/clay_access.h"
+#include "edit/history.h"
 #include "field/bad_input.h"
+#include "field/level_stack.h"
+#include "operation/prepared_operation.h"
+#include "operation/scaled_levels.h"
+#include "operation/split_levels.h"
 #include "sculpture/sculpture_state.h"
 
 namespace argil {
@@ -95,6 +108,9 @@ class Editor {
   Result<void> operator()(const CopyPiece& copy);
   Result<void> operator()(const RemovePiece& remove);
   Result<void> operator()(const ChangePiece& change);
+  Result<void> operator()(const PlacePieces& place);
+  Result<void> operator()(const ScalePiece& scale);
+  Result<void> operator()(const SplitPiece& split);
   Result<void> operator()(const MergePiece& merge);
 
  private:
@@ -104,6 +120,11 @@ class Editor {
   Result<Clay> clay_of(const AddPiece& add) const;
   Result<void> insert(PieceLook look, Clay clay, std::size_t index);
   Result<void> check_memory(const Clay& clay) const;
+  Result<void> check_memory(const ClayUse& more) const;
+  Result<void> check_factor(const ScalePiece& scale, const Clay& clay) const;
+  using LevelList = std::vector<std::unique_ptr<LevelStack>>;
+  Result<LevelList> solids_of(const SplitPiece& split, const Clay& clay) const;
+  Result<void> list_parts(std::size_t index, LevelList solids);
   PieceId next_to(std::size_t index) const;
 
   Sculpture::State& state_;
@@ -151,7 +172,9 @@ Result<void> Editor::insert(PieceLook look, Clay clay, std::size_t index) {
 }
 
 /// Another clay as large as this one must fit beside those that are there, as if they were one.
-Result<void> Editor::check_memory(const Clay& clay) const {
+Result<void> Editor::check_memory(const Clay& clay) const { return check_memory(clay.use()); }
+
+Result<void> Editor::check_memory(const ClayUse& more) const {
   const ClayUse own = state_.active_piece().clay->use();
   const auto bytes_of = [](const ClayUse& use) {
     return use.level_bytes + use.undo_bytes + use.mask_bytes;
@@ -159,7 +182,6 @@ Result<void> Editor::check_memory(const Clay& clay) const {
   const std::int64_t most = own.free_bytes + bytes_of(own);
   std::int64_t taken = state_.held_bytes;
   for (const Piece& piece : state_.pieces) taken += bytes_of(piece.clay->use());
-  const ClayUse more = clay.use();
   if (taken + more.level_bytes + more.mask_bytes <= most) return {};
   return Error{ErrorKind::memory,
                "another piece of " + std::to_string(more.level_bytes >> 20) +
@@ -256,6 +278,154 @@ Result<void> Editor::operator()(const ChangePiece& change) {
   std::swap(piece.look, std::get<OtherLook>(step.parts.front()).look);
   state_.push(std::move(step));
   return {};
+}
+
+Result<void> Editor::operator()(const PlacePieces& place) {
+  if (place.places.empty()) return bad_input("no piece is named that shall be placed; name one");
+  SculptureStep step;
+  std::set<PieceId> named;
+  for (const PlacePieces::Place& wanted : place.places) {
+    const auto index = unlocked(wanted.name);
+    if (!index) return index.error();
+    const Piece& piece = state_.pieces[index.value()];
+    if (!named.insert(piece.id).second) {
+      return bad_input("the piece " + quoted_piece(wanted.name) + " is placed twice; name it once");
+    }
+    PieceLook look = piece.look;
+    look.placement = wanted.placement;
+    if (auto valid = validate_look(look); !valid) return valid;
+    look.placement = settled(look.placement);
+    step.parts.emplace_back(OtherLook{piece.id, std::move(look)});
+  }
+  state_.make_room();
+  for (auto& part : step.parts) {
+    OtherLook& other = std::get<OtherLook>(part);
+    std::swap(state_.of(other.piece).look, other.look);
+  }
+  state_.push(std::move(step));
+  return {};
+}
+
+Result<void> Editor::check_factor(const ScalePiece& scale, const Clay& clay) const {
+  const double voxel = clay.options().voxel_mm;
+  const Box3 box = clay.bounds_mm();
+  double reach = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  }
+  const double least = kLeastVoxelMm / voxel;
+  const double most = std::min(kMostVoxelMm / voxel, kMaxReachMm / reach);
+  if (!(scale.factor >= least && scale.factor <= most)) {
+    return bad_input("the factor is " + digits(scale.factor) + "; for the piece " +
+                     quoted_piece(scale.name) + " it must be from " + digits(least) + " to " +
+                     digits(most));
+  }
+  if (scale.about_mm && !is_in_reach(*scale.about_mm)) {
+    return bad_input("the piece is to be scaled about " + digits(*scale.about_mm) +
+                     "; give a point within 1 km of the origin");
+  }
+  if (scale.factor != 1.0) return {};
+  return bad_input("the factor is 1, which changes nothing; give another");
+}
+
+/// The clay's own step comes first: only that can fail later.
+Result<void> Editor::operator()(const ScalePiece& scale) {
+  const auto index = unlocked(scale.name);
+  if (!index) return index.error();
+  state_.make_room();
+  Piece& piece = state_.pieces[index.value()];
+  if (auto fits = check_factor(scale, *piece.clay); !fits) return fits;
+  ClayOptions options = piece.clay->options();
+  options.voxel_mm = std::clamp(scale.factor * options.voxel_mm, kLeastVoxelMm, kMostVoxelMm);
+  PieceLook look = piece.look;
+  Vec3& at = look.placement.position_mm;
+  if (scale.about_mm) at = *scale.about_mm + scale.factor * (at - *scale.about_mm);
+  if (auto valid = validate_look(look); !valid) return valid;
+  look.placement = settled(look.placement);
+  SculptureStep step{{ClayStep{piece.id}}};
+  const bool is_moved = !(look.placement.position_mm == piece.look.placement.position_mm);
+  if (is_moved) step.parts.emplace_back(OtherLook{piece.id, std::move(look)});
+  auto levels = scaled_levels(levels_of(*piece.clay), options.voxel_mm, progress_);
+  if (!levels) return operation_interrupted();
+  ClayAccess::replace_levels(*piece.clay, std::move(levels), options);
+  piece.known_steps = steps_of(*piece.clay);
+  if (is_moved) std::swap(piece.look, std::get<OtherLook>(step.parts.back()).look);
+  state_.push(std::move(step));
+  return {};
+}
+
+/// The levels of each solid, crumbs with those of the largest, which is the first.
+Result<Editor::LevelList> Editor::solids_of(const SplitPiece& split, const Clay& clay) const {
+  auto surface = extract_surface(clay, progress_);
+  if (!surface) return surface.error();
+  SurfaceSolids solids = argil::solids_of(surface.value());
+  const std::vector<double>& volumes = solids.volume_mm3;
+  const std::string named = "the piece " + quoted_piece(split.name);
+  if (volumes.size() < 2) return bad_input(named + " is one solid; there is nothing to split");
+  const auto is_crumb = [&](double volume) { return volume < split.crumb_share * volumes.front(); };
+  const auto first_crumb = std::find_if(volumes.begin(), volumes.end(), is_crumb);
+  const auto count = static_cast<std::size_t>(first_crumb - volumes.begin());
+  if (count < 2) {
+    return bad_input(named + " is one solid and crumbs of less than " + digits(split.crumb_share) +
+                     " of its volume; give a smaller share");
+  }
+  if (state_.pieces.size() + count - 1 > Sculpture::kMostPieces) {
+    return bad_input(named + " is " + std::to_string(count) + " solids, and there may be " +
+                     std::to_string(Sculpture::kMostPieces) +
+                     " pieces; give a larger share of crumbs");
+  }
+  for (std::uint32_t& part : solids.of_triangle) part = part < count ? part : 0;
+  const ClayOptions& options = clay.options();
+  return split_levels(levels_of(clay), surface.value(), solids.of_triangle, count,
+                      options.tolerance_voxels * options.voxel_mm, progress_);
+}
+
+/// All but the first as pieces behind the one at `index`, whose clay becomes the first: one step.
+Result<void> Editor::list_parts(std::size_t index, LevelList solids) {
+  state_.pieces.reserve(state_.pieces.size() + solids.size());
+  state_.make_room();
+  Piece& first = state_.pieces[index];
+  const ClayOptions options = first.clay->options();
+  SculptureStep step{{ClayStep{first.id}}, state_.active, state_.active};
+  std::vector<Piece> others;
+  std::set<std::string> taken;
+  for (std::size_t n = 1; n < solids.size(); ++n) {
+    Clay clay = clay_of_levels(std::move(solids[n]), options);
+    if (auto set = clay.set_limits(state_.limits); !set) return set;
+    PieceLook look = first.look;
+    look.name = free_name(first.look.name, Sculpture::kMostBytesOfAName, [&](const auto& name) {
+      return taken.contains(name) || state_.find(name).has_value();
+    });
+    taken.insert(look.name);
+    step.parts.emplace_back(PieceMove{index + n});
+    others.push_back(state_.make(std::move(look), std::move(clay)));
+  }
+  ClayAccess::replace_levels(*first.clay, std::move(solids.front()), options);
+  first.known_steps = steps_of(*first.clay);
+  state_.pieces.insert(state_.pieces.begin() + static_cast<std::ptrdiff_t>(index) + 1,
+                       std::make_move_iterator(others.begin()),
+                       std::make_move_iterator(others.end()));
+  state_.push(std::move(step));
+  return {};
+}
+
+Result<void> Editor::operator()(const SplitPiece& split) {
+  const auto index = unlocked(split.name);
+  if (!index) return index.error();
+  if (!(split.crumb_share >= 0.0 && split.crumb_share <= 1.0)) {
+    return bad_input("the share of crumbs is " + digits(split.crumb_share) +
+                     "; must be from 0 to 1");
+  }
+  auto solids = solids_of(split, *state_.pieces[index.value()].clay);
+  if (!solids) return solids.error();
+  // What is there now stays as well, for undo.
+  ClayUse more;
+  for (const std::unique_ptr<LevelStack>& levels : solids.value()) {
+    more.level_bytes += leaf_bytes(*levels);
+    more.mask_bytes += mask_bytes(*levels);
+  }
+  if (auto fits = check_memory(more); !fits) return fits;
+  return list_parts(index.value(), std::move(solids).value());
 }
 
 Result<void> Editor::operator()(const MergePiece& merge) {

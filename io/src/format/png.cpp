@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "argil/io/safe_file.h"
 
 #include "file/file_bytes.h"
+#include "file/file_error.h"
 
 namespace argil::io {
 namespace {
@@ -100,6 +102,58 @@ Result<void> write_png(const std::filesystem::path& file, const Image& image,
       out.write(bytes.value().data(), bytes.value().size());
       return out.close();
     });
+  });
+}
+
+namespace {
+
+/// What libpng holds of an image, given back in any case.
+struct PngHeader {
+  png_image image;
+  PngHeader() {
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+  }
+  ~PngHeader() { png_image_free(&image); }
+  PngHeader(const PngHeader&) = delete;
+  PngHeader& operator=(const PngHeader&) = delete;
+};
+
+Result<ClearImage> parse_png(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  constexpr std::size_t kSignature = 8;
+  if (bytes.size() < kSignature ||
+      png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kSignature) != 0) {
+    return file_error(ErrorKind::bad_input, file, " is no PNG; save the image as one");
+  }
+  PngHeader header;
+  png_image& image = header.image;
+  const auto damaged = [&] {
+    return file_error(ErrorKind::bad_input, file,
+                      std::string(" is damaged (") + image.message + "); save the image again");
+  };
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return damaged();
+  constexpr auto kMost = static_cast<png_uint_32>(kMostPngSide);
+  if (image.width > kMost || image.height > kMost) {
+    return file_error(ErrorKind::bad_input, file,
+                      " is " + std::to_string(image.width) + " by " + std::to_string(image.height) +
+                          " pixels; each side may be " + std::to_string(kMostPngSide) +
+                          " at most: make it smaller");
+  }
+  image.format = PNG_FORMAT_RGBA;
+  ClearImage read{static_cast<int>(image.width), static_cast<int>(image.height), {}};
+  read.rgba.resize(PNG_IMAGE_SIZE(image));
+  // Rows follow one another without a gap, and nothing is laid below what is clear.
+  if (png_image_finish_read(&image, nullptr, read.rgba.data(), 0, nullptr) == 0) return damaged();
+  return read;
+}
+
+}  // namespace
+
+Result<ClearImage> read_png(const std::filesystem::path& file) {
+  return no_throw(file.string(), [&]() -> Result<ClearImage> {
+    const auto bytes = read_file_bytes(file);
+    if (!bytes) return bytes.error();
+    return parse_png(file, bytes.value());
   });
 }
 

@@ -17,10 +17,11 @@ bool is_select(const ScriptStep& step) {
   return edit != nullptr && std::holds_alternative<SelectPiece>(*edit);
 }
 
-/// Whether another piece may be active behind it: all but changes of looks.
+/// Whether another piece may be active behind it: all but changes of looks, places and size.
 bool may_choose_piece(const ScriptStep& step) {
   const PieceEdit* edit = piece_edit(step);
-  return edit != nullptr && !std::holds_alternative<ChangePiece>(*edit);
+  return edit != nullptr && !std::holds_alternative<ChangePiece>(*edit) &&
+         !std::holds_alternative<PlacePieces>(*edit) && !std::holds_alternative<ScalePiece>(*edit);
 }
 
 /// By how much a step makes what can be taken back deeper.

@@ -211,7 +211,8 @@ std::size_t Session::step_count() const noexcept { return state_->steps; }
 bool is_slow(const ScriptStep& step) {
   if (const auto* edit = std::get_if<PieceEdit>(&step)) {
     const auto* add = std::get_if<AddPiece>(edit);
-    return (add != nullptr && add->mesh != nullptr) || std::holds_alternative<MergePiece>(*edit);
+    return (add != nullptr && add->mesh != nullptr) || std::holds_alternative<MergePiece>(*edit) ||
+           std::holds_alternative<SplitPiece>(*edit);
   }
   const auto* operation = std::get_if<Operation>(&step);
   return operation != nullptr && !std::holds_alternative<Cut>(*operation);

@@ -11,10 +11,12 @@ namespace argil::io {
 namespace {
 
 /// In the order of PieceEdit's alternatives; a merge is called by its CombineKind.
-constexpr auto kPieceEditNames = std::to_array<std::string_view>(
-    {"select", "add", "copy", "remove", "change", "union", "difference", "intersection"});
-constexpr std::size_t kFirstMerge = 5;
+constexpr auto kPieceEditNames =
+    std::to_array<std::string_view>({"select", "add", "copy", "remove", "change", "place", "scale",
+                                     "split", "union", "difference", "intersection"});
+constexpr std::size_t kFirstMerge = 8;
 static_assert(std::is_same_v<std::variant_alternative_t<4, PieceEdit>, ChangePiece> &&
+              std::is_same_v<std::variant_alternative_t<7, PieceEdit>, SplitPiece> &&
               std::is_same_v<std::variant_alternative_t<kFirstMerge, PieceEdit>, MergePiece>);
 
 // ---- reading -----------------------------------------------------------------------------------
@@ -95,6 +97,58 @@ Result<PieceEdit> read_change(const Fields& fields) {
   return PieceEdit(std::move(change));
 }
 
+Result<PlacePieces::Place> read_place(const FileLine& where, const Json& json, std::size_t n) {
+  const Fields fields(where, json, "places[" + std::to_string(n) + "].");
+  PlacePieces::Place place;
+  auto read = fields.only({"name", "position_mm", "orientation"});
+  if (read) read = read_name(fields, "name", place.name);
+  if (read) read = read_placement(fields, place.placement);
+  if (!read) return read.error();
+  for (const char* key : {"position_mm", "orientation"}) {
+    if (!fields.has(key)) return fields.missing(key, "a place has position and orientation");
+  }
+  return place;
+}
+
+Result<PieceEdit> read_places(const FileLine& where, const Fields& fields) {
+  constexpr const char* kMust = "a list of objects with name, position_mm and orientation";
+  PlacePieces place;
+  if (auto read = fields.only({"piece", "places"}); !read) return read.error();
+  if (!fields.has("places")) return fields.missing("places", std::string("give ") + kMust);
+  const Json& list = fields.at("places");
+  if (!list.is_array() || list.empty()) return fields.wrong("places", kMust);
+  for (std::size_t n = 0; n < list.size(); ++n) {
+    if (!list[n].is_object()) return fields.wrong("places", kMust);
+    auto read = read_place(where, list[n], n);
+    if (!read) return read.error();
+    place.places.push_back(std::move(read).value());
+  }
+  return PieceEdit(std::move(place));
+}
+
+Result<PieceEdit> read_scale(const Fields& fields) {
+  ScalePiece scale;
+  auto read = fields.only({"piece", "name", "factor", "about_mm"});
+  if (read) read = read_name(fields, "name", scale.name);
+  if (read && !fields.has("factor")) read = fields.missing("factor", "2 makes it twice as large");
+  if (read) read = fields.positive("factor", scale.factor);
+  if (read && fields.has("about_mm")) {
+    scale.about_mm.emplace();
+    read = fields.triple("about_mm", *scale.about_mm);
+  }
+  if (!read) return read.error();
+  return PieceEdit(std::move(scale));
+}
+
+Result<PieceEdit> read_split(const Fields& fields) {
+  SplitPiece split;
+  auto read = fields.only({"piece", "name", "crumb_share"});
+  if (read) read = read_name(fields, "name", split.name);
+  if (read) read = fields.number("crumb_share", split.crumb_share);
+  if (!read) return read.error();
+  return PieceEdit(std::move(split));
+}
+
 Result<PieceEdit> read_merge(const Fields& fields, CombineKind kind) {
   MergePiece merge;
   merge.kind = kind;
@@ -119,6 +173,12 @@ Result<PieceEdit> read_kind(const FileLine& where, const Fields& fields, std::si
       return read_remove(fields);
     case 4:
       return read_change(fields);
+    case 5:
+      return read_places(where, fields);
+    case 6:
+      return read_scale(fields);
+    case 7:
+      return read_split(fields);
     default:
       return read_merge(fields, static_cast<CombineKind>(kind - kFirstMerge));
   }
@@ -160,10 +220,47 @@ void put_edit(OrderedJson& json, const ChangePiece& change, const SolidName&) {
   if (change.color) json["color"] = color_json(*change.color);
 }
 
+void put_edit(OrderedJson& json, const PlacePieces& place, const SolidName&) {
+  json["places"] = OrderedJson::array();
+  for (const PlacePieces::Place& wanted : place.places) {
+    OrderedJson one;
+    one["name"] = wanted.name;
+    put_placement(one, wanted.placement);
+    json["places"].push_back(std::move(one));
+  }
+}
+
+void put_edit(OrderedJson& json, const ScalePiece& scale, const SolidName&) {
+  json["name"] = scale.name;
+  json["factor"] = scale.factor;
+  if (scale.about_mm) json["about_mm"] = {scale.about_mm->x, scale.about_mm->y, scale.about_mm->z};
+}
+
+void put_edit(OrderedJson& json, const SplitPiece& split, const SolidName&) {
+  json["name"] = split.name;
+  if (split.crumb_share != SplitPiece().crumb_share) json["crumb_share"] = split.crumb_share;
+}
+
 void put_edit(OrderedJson& json, const MergePiece& merge, const SolidName&) {
   json["name"] = merge.name;
   json["other"] = merge.other;
   if (merge.keeps_other) json["keeps_other"] = true;
+}
+
+/// Of what makes pieces larger, or several of one; how large is a matter of the piece.
+Result<void> validate_numbers(const PieceEdit& edit) {
+  const auto* scale = std::get_if<ScalePiece>(&edit);
+  const bool has_factor = scale == nullptr || (std::isfinite(scale->factor) && scale->factor > 0.0);
+  if (!has_factor) {
+    return Error{ErrorKind::bad_input, "a piece is scaled by no number; give a factor above 0"};
+  }
+  if (scale != nullptr && scale->about_mm && !is_in_reach(*scale->about_mm)) {
+    return Error{ErrorKind::bad_input,
+                 "a piece is scaled about a point beyond 1 km; give a nearer one"};
+  }
+  const auto* split = std::get_if<SplitPiece>(&edit);
+  if (split == nullptr || (split->crumb_share >= 0.0 && split->crumb_share <= 1.0)) return {};
+  return Error{ErrorKind::bad_input, "the share of crumbs is no number from 0 to 1"};
 }
 
 std::size_t name_index(const PieceEdit& edit) {
@@ -210,6 +307,13 @@ Result<void> validate_piece_edit(const PieceEdit& edit) {
     if (change->new_name) look.name = *change->new_name;
     if (change->placement) look.placement = *change->placement;
   }
+  if (const auto* place = std::get_if<PlacePieces>(&edit)) {
+    for (const PlacePieces::Place& wanted : place->places) {
+      look = {.name = wanted.name, .placement = wanted.placement};
+      if (auto valid = validate_look(look); !valid) return valid;
+    }
+  }
+  if (auto sound = validate_numbers(edit); !sound) return sound;
   return validate_look(look);
 }
 

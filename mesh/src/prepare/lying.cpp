@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
 #include "argil/mesh/print_orientation.h"
@@ -77,13 +78,15 @@ double area_below(const std::vector<Vec3>& points, const Vec3& up, double slack_
 
 }  // namespace
 
-Vec3 lying_on_most(const TriangleMesh& mesh, const Vec3& up, double slack_mm) {
+Vec3 lying_on_most(const TriangleMesh& mesh, const Vec3& up, double slack_mm, const Pace& pace) {
+  constexpr double kRolled = 0.3;  // of the work, where the mesh is small
   assert(!mesh.positions.empty() && slack_mm >= 0.0);
   const Vec3 centre = centre_of_mass(mesh);
   const std::vector<Vec3> outer = outermost(mesh.positions, centre);
   if (outer.empty()) return up;
   std::vector<Vec3> rests{rested_up(outer, centre, up)};
   for (std::size_t n = 0; n < kPutDown; ++n) {
+    pace.at(kRolled * static_cast<double>(n) / kPutDown);
     const Vec3 rest = rested_up(outer, centre, direction_around(n, kPutDown));
     const bool is_known = std::any_of(rests.begin(), rests.end(), [&](const Vec3& known) {
       return dot(known, rest) > kOneFacet;
@@ -98,11 +101,12 @@ Vec3 lying_on_most(const TriangleMesh& mesh, const Vec3& up, double slack_mm) {
   constexpr double kLarger = 1.001;
   Vec3 best = rests[0];
   double most = area_below(mesh.positions, best, slack);
-  for (const Vec3& rest : rests) {
-    const double area = area_below(mesh.positions, rest, slack);
+  for (std::size_t n = 0; n < rests.size(); ++n) {
+    pace.at(kRolled + (1.0 - kRolled) * static_cast<double>(n) / static_cast<double>(rests.size()));
+    const double area = area_below(mesh.positions, rests[n], slack);
     if (area <= kLarger * most) continue;
     most = area;
-    best = rest;
+    best = rests[n];
   }
   return rested_up(mesh.positions, centre, best);
 }

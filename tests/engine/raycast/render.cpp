@@ -236,9 +236,9 @@ TEST(Render, NamesTheOptionThatIsOutOfRange) {
     return error_of(mesh, options);
   };
   EXPECT_EQ(error_with([](auto& o) { o.width = 15; }),
-            "render option 'width' is 15; it must be 16 to 8192");
-  EXPECT_EQ(error_with([](auto& o) { o.height = 8193; }),
-            "render option 'height' is 8193; it must be 16 to 8192");
+            "render option 'width' is 15; it must be 16 to 16384");
+  EXPECT_EQ(error_with([](auto& o) { o.height = 16385; }),
+            "render option 'height' is 16385; it must be 16 to 16384");
   EXPECT_EQ(error_with([](auto& o) { o.samples = 0; }),
             "render option 'samples' is 0; it must be 1 to 8");
   EXPECT_EQ(error_with([](auto& o) { o.field_of_view_rad = 3.0; }),

@@ -55,6 +55,8 @@ std::vector<PieceEdit> many_edits() {
           CopyPiece{"Nose", "Ear"},
           move,
           hide,
+          PlacePieces{{{"Nose", {{0.0, -7.0, 0.5}, {}}}, {"Left ear", {{2.0, 0.0, 0.0}, {}}}}},
+          ScalePiece{"Nose", 1.25, Vec3{0.0, 0.0, 0.5}},
           MergePiece{"Head", "Nose", CombineKind::unite, true},
           MergePiece{"Head", "Left ear", CombineKind::subtract, false},
           RemovePiece{"Nose"}};

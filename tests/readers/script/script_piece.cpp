@@ -43,6 +43,13 @@ TEST_F(ScriptPiece, LinesAreReadAsTheyWereWritten) {
       R"({"piece":"change","name":"Box","new_name":"Crate","position_mm":[0.1,0.0,0.0],)"
       R"("orientation":[0.0,1.0,0.0,0.0],"visible":true,"locked":false,"color":null})",
       R"({"piece":"change","name":"Box","color":"#ffffff"})",
+      R"({"piece":"place","places":[{"name":"Box","position_mm":[0.1,0.0,0.0],)"
+      R"("orientation":[0.0,1.0,0.0,0.0]},{"name":"Ball","position_mm":[1.0,2.0,3.0],)"
+      R"("orientation":[1.0,0.0,0.0,0.0]}]})",
+      R"({"piece":"scale","name":"Box","factor":1.5})",
+      R"({"piece":"scale","name":"Box","factor":0.1,"about_mm":[1.0,-2.0,0.5]})",
+      R"({"piece":"split","name":"Box"})",
+      R"({"piece":"split","name":"Box","crumb_share":0.0})",
       R"({"piece":"union","name":"Box","other":"Ball"})",
       R"({"piece":"difference","name":"Box","other":"Ball","keeps_other":true})",
       R"({"piece":"intersection","name":"Box","other":"Ball"})"};
@@ -67,7 +74,22 @@ TEST_F(ScriptPiece, RefusesWhatIsNoEditByLineAndKey) {
     EXPECT_THAT(read_back.error().message,
                 AllOf(HasSubstr("s.strokes.jsonl:7"), HasSubstr(message)));
   };
-  refuses(R"({"piece":"split","name":"A"})", "'piece'");
+  refuses(R"({"piece":"melt","name":"A"})", "'piece'");
+  refuses(R"({"piece":"place"})", "'places'");
+  refuses(R"({"piece":"place","places":[]})", "'places'");
+  refuses(R"({"piece":"place","places":[3]})", "'places'");
+  refuses(R"({"piece":"place","places":[{"name":"A","position_mm":[1,2,3]}]})",
+          "'places[0].orientation'");
+  refuses(R"({"piece":"place","places":[{"name":"A","position_mm":[1,2,3e9],)"
+          R"("orientation":[1,0,0,0]}]})",
+          "1 km");
+  refuses(R"({"piece":"scale","name":"A"})", "'factor'");
+  refuses(R"({"piece":"scale","name":"A","factor":0})", "'factor'");
+  refuses(R"({"piece":"scale","name":"A","factor":-2})", "'factor'");
+  refuses(R"({"piece":"scale","name":"A","factor":2,"about_mm":[1,2]})", "'about_mm'");
+  refuses(R"({"piece":"scale","name":"A","factor":2,"about_mm":[1,2,3e9]})", "1 km");
+  refuses(R"({"piece":"split"})", "'name'");
+  refuses(R"({"piece":"split","name":"A","crumb_share":1.5})", "from 0 to 1");
   refuses(R"({"piece":"select"})", "'name'");
   refuses(R"({"piece":"select","name":3})", "'name'");
   refuses(R"({"piece":"select","name":"A","visible":true})", "'visible'");

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "argil/engine/pick.h"
+#include "argil/engine/surface.h"
 #include "argil/io/assembly.h"
 #include "argil/io/project_file.h"
 
@@ -116,6 +117,39 @@ TEST_F(ViewPiecesGl, NumbersOfThePanelPlaceThePieceExactly) {
   const Placement& placement = sculpture.look(0).placement;
   EXPECT_EQ(placement.position_mm, (Vec3{12.5, 0.0, 0.0}));
   EXPECT_LT(length(viewer::turns_of(placement.orientation) - Vec3{-30.0, 0.0, 90.0}), 1e-6);
+}
+
+/// A side in mm decides for all, and the percentage goes on from there.
+TEST_F(ViewPiecesGl, NumbersOfThePanelScaleThePieceToTheMillimetre) {
+  const auto type = [](const std::string& field, const std::string& text) {
+    return "click " + field + "\nframes 3\nkey Ctrl+A\ntype " + text +
+           "\nkey Enter\nsettle\nframes 3\n";
+  };
+  const Box3 before = surface_bounds_mm(io::load_sculpture(folder_ / "s.vdb").value().clay(0));
+  const Sculpture sculpture = sculpted("key Ctrl+P\nframes 3\n" + type("##sz", "50"));
+  const Box3 box = surface_bounds_mm(sculpture.clay(0));
+  EXPECT_NEAR(box.size().z, 50.0, 1e-4);
+  EXPECT_NEAR(box.size().x, before.size().x * 50.0 / before.size().z, 1e-3);
+  const double foot = sculpture.look(0).placement.position_mm.z + box.min.z;
+  EXPECT_NEAR(foot, before.min.z, 1e-4) << "what stands on the bed stays there";
+  const Sculpture half = sculpted("key Ctrl+P\nframes 3\n" + type("Scale, %", "50") +
+                                  "shot half.png\nframes 2\n");
+  EXPECT_NEAR(surface_bounds_mm(half.clay(0)).size().z, 25.0, 1e-4);
+}
+
+TEST_F(ViewPiecesGl, TheOuterRingScalesAndTheDragIsShownAsItWillBe) {
+  const viewer::Gizmo gizmo = viewer::gizmo_at({0.0, 0.0, 0.0}, camera_);
+  const Vec3 right = gizmo.length_mm * camera_.lens({}).right;
+  // Held, as large as it is about to be; then let go of.
+  const Sculpture sculpture = sculpted("key Shift+G\nframes 3\nmove " + at(1.5 * right) +
+                                       "\npress left\nframes 2\nmove " + at(2.1 * right) +
+                                       "\nframes 3\nshot held.png\nframes 2\nrelease left\n"
+                                       "settle\nframes 3\nshot done.png\nframes 2\n");
+  const double factor = sculpture.clay(0).options().voxel_mm / kPieceVoxelMm;
+  EXPECT_NEAR(factor, 1.4, 0.02);
+  const Image held = test::read_picture(folder_ / "held.png");
+  EXPECT_TRUE(test::are_alike(held, test::read_picture(folder_ / "done.png")));
+  ASSERT_FALSE(held.rgb.empty());
 }
 
 }  // namespace

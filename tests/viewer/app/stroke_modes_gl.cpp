@@ -112,7 +112,7 @@ TEST_F(StrokeModesGl, TheMaskIsGrownByItsPanelAndItsKey) {
 TEST_F(StrokeModesGl, ADroppedImageJoinsThePaletteAndIsChosen) {
   fs::copy_file("examples/alphas/stars.png", folder_ / "mine.png");
   const Clay clay = worked(
-      "drop mine.png\nsettle\nframes 5\nshot palette.png\n"
+      "drop mine.png\nframes 5\nclick Emboss with it\nsettle\nframes 5\nshot palette.png\n"
       "click medal\nsettle\nframes 3\nclick mine\nsettle\nframes 3\n"
       "click Image\nframes 3\nclick Image/Dragged\nframes 3\n"
       "move 640 360\npress left\nmove 660 330\nmove 720 260\nrelease left\n");

@@ -74,6 +74,38 @@ TEST_F(PieceGesturesTest, ADragIsShownAtOnceAndIsOneStepAtItsEnd) {
   EXPECT_EQ(x_of_active(), 0.0);
 }
 
+TEST_F(PieceGesturesTest, TheOuterRingMakesThePieceLargerAtOnceAndInOneStep) {
+  perform(Command::piece_gizmo, ui_, document_);
+  place_active({{4.0, 0.0, 0.0}, {}}, ui_, document_);
+  settle();
+  const Gizmo gizmo = shown_gizmo(ui_, ui_.camera).value();
+  const Vec3 right = ui_.camera.lens({}).right;
+  const auto pixel = [&](double along) {
+    return ui_.camera.pixel_of(gizmo.center_mm + along * gizmo.length_mm * right);
+  };
+  mouse_at(InputEvent::Kind::press, pixel(1.5));
+  mouse_at(InputEvent::Kind::move, pixel(3.0));
+  EXPECT_NEAR(shown_factor(ui_), 2.0, 0.02);
+  EXPECT_GT(shown_bounds(ui_).size().x, 70.0) << "for the camera's near and far plane";
+  EXPECT_EQ(ui_.clay.voxel_mm, 0.25);
+  const double factor = shown_factor(ui_);
+  mouse_at(InputEvent::Kind::release, pixel(3.0));
+  EXPECT_EQ(shown_factor(ui_), factor) << "until the document has it";
+  EXPECT_FALSE(is_drag_done(ui_, false));
+  settle();
+  EXPECT_TRUE(is_drag_done(ui_, false));
+  EXPECT_DOUBLE_EQ(ui_.clay.voxel_mm, 0.25 * factor);
+  EXPECT_NEAR(x_of_active(), 4.0, 1e-9) << "about its middle";
+  EXPECT_NEAR(ui_.clay.surface_mm.size().z, 40.0 * factor, 0.1);
+  ui_.pieces.drag.reset();
+  // From its foot it grows upwards.
+  const double bottom = foot_of_active(ui_)->z;
+  scale_active(0.5, *foot_of_active(ui_), ui_, document_);
+  settle();
+  EXPECT_NEAR(foot_of_active(ui_)->z, bottom, 1e-4);
+  EXPECT_NEAR(ui_.clay.surface_mm.size().z, 20.0 * factor, 0.1);
+}
+
 TEST_F(PieceGesturesTest, InStereoADragGoesOnInThePictureThatItBeganIn) {
   ui_.show.is_stereo = true;
   perform(Command::piece_gizmo, ui_, document_);

@@ -219,6 +219,13 @@ TEST_F(DocumentPiecesTest, AllPiecesDropToTheBedTogether) {
   thread_.send(StandPiece{StandPiece::Where::all_on_bed});
   settle_all();
   EXPECT_NEAR(piece("Clay").look.placement.position_mm.z, 20.0, 0.02);
+  EXPECT_EQ(thread_.state().steps->names.back(), "2 pieces moved");
+  thread_.send(DoStep{io::HistoryStep::undo});
+  settle_all();
+  EXPECT_EQ(piece("Clay").look.placement.position_mm.z, 50.0) << "all of it in one step";
+  EXPECT_EQ(piece("Ball").look.placement.position_mm.z, 90.0);
+  thread_.send(DoStep{io::HistoryStep::redo});
+  settle_all();
   EXPECT_NEAR(
       piece("Ball").look.placement.position_mm.z - piece("Clay").look.placement.position_mm.z, 40.0,
       1e-9);
@@ -239,6 +246,76 @@ TEST_F(DocumentPiecesTest, AllPiecesDropToTheBedTogether) {
   thread_.send(StandPiece{StandPiece::Where::all_on_bed});
   settle_all();
   EXPECT_NEAR(piece("Clay").look.placement.position_mm.z, 20.0, 0.02);
+}
+
+/// The hand of a device asks for the piece's number as soon as undo has brought it back, before the
+/// window was told of it.
+TEST_F(DocumentPiecesTest, APieceThatComesBackHasTheNumberThatItHad) {
+  open_two();
+  edit(SelectPiece{"Ball"});
+  settle_all();
+  const PieceKey ball = piece("Ball").key;
+  ToolSampleRing ring(64);
+  WindowChannel channel;
+  ClayHeartbeat heartbeat;
+  thread_.send(LinkHaptics{&ring, &channel, &heartbeat, small_tool(), {}, ball});
+  edit(RemovePiece{"Ball"});
+  settle_all();
+  thread_.send(DoStep{io::HistoryStep::undo});
+  settle_all();
+  EXPECT_EQ(active(), "Ball");
+  EXPECT_EQ(piece("Ball").key, ball) << "or what was measured on it is lost";
+  thread_.send(UnlinkHaptics{});
+  settle_all();
+}
+
+/// Of another size it is the same piece, in one step, with all its blocks sent anew.
+TEST_F(DocumentPiecesTest, AScaledPieceIsAsLargeAsWasAskedAndStandsWhereItStood) {
+  thread_.send(NewClay{{io::StartShape::Kind::block, {30.0, 20.0, 12.0}, {}}});
+  place("Clay", {{5.0, 0.0, 6.0}, {}});
+  settle_all();
+  state_ = thread_.state();
+  EXPECT_NEAR(state_.surface_mm.size().x, 30.0, 0.02);
+  EXPECT_NEAR(state_.surface_mm.size().z, 12.0, 0.02);
+  const PieceKey key = piece("Clay").key;
+  edit(ScalePiece{"Clay", 0.5, Vec3{5.0, 0.0, 0.0}});
+  EXPECT_FALSE(settle_all().pieces.at(key).changed.empty());
+  state_ = thread_.state();
+  EXPECT_EQ(state_.steps->names.back(), "Clay scaled to 50 %");
+  EXPECT_EQ(piece("Clay").key, key);
+  EXPECT_NEAR(state_.surface_mm.size().x, 15.0, 0.02);
+  EXPECT_EQ(state_.voxel_mm, 0.125);
+  const Vec3 at = piece("Clay").look.placement.position_mm;
+  EXPECT_EQ(at, (Vec3{5.0, 0.0, 3.0})) << "its foot stayed";
+  // A stroke lands where the pointer is, and undo leads back.
+  thread_.send(DoStep{io::HistoryStep::undo});
+  settle_all();
+  EXPECT_NEAR(thread_.state().surface_mm.size().x, 30.0, 0.02);
+  EXPECT_EQ(thread_.state().voxel_mm, 0.25);
+  EXPECT_TRUE(errors().empty());
+}
+
+TEST_F(DocumentPiecesTest, APieceIsSplitIntoItsPartsInOneStep) {
+  open_two();
+  edit(MergePiece{"Clay", "Ball"});
+  edit(SplitPiece{"Clay"});
+  settle_all();
+  state_ = thread_.state();
+  ASSERT_EQ(state_.pieces->pieces.size(), 2U);
+  EXPECT_EQ(state_.pieces->pieces[1].look.name, "Clay 2");
+  EXPECT_EQ(active(), "Clay");
+  EXPECT_EQ(state_.steps->names.back(), "Clay split");
+  thread_.send(DoStep{io::HistoryStep::undo});
+  const SceneNews back = settle_all();
+  EXPECT_EQ(thread_.state().pieces->pieces.size(), 1U);
+  EXPECT_EQ(back.gone.size(), 1U);
+  EXPECT_TRUE(errors().empty());
+  edit(SplitPiece{"Clay"});
+  edit(SplitPiece{"Clay"});
+  settle_all();
+  const std::vector<std::string> told = errors();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("is one solid"), std::string::npos) << told[0];
 }
 
 TEST_F(DocumentPiecesTest, AHiddenPieceIsNotSculptedAndComesBackAsItIs) {
@@ -281,9 +358,13 @@ TEST_F(DocumentPiecesTest, NothingIsDoneToAHiddenPieceNorMergedWithIt) {
   edit(hide);
   settle_all();
   const auto steps = thread_.state().steps->names.size();
-  const std::vector<Request> requests{
-      DoStep{MaskEdit::fill}, DoStep{Operation(Offset{1.0})}, TrimPiece{right_half(), {}},
-      DoStep{PieceEdit{MergePiece{"Ball", "Clay"}}}, DoStep{PieceEdit{MergePiece{"Clay", "Ball"}}}};
+  const std::vector<Request> requests{DoStep{MaskEdit::fill},
+                                      DoStep{Operation(Offset{1.0})},
+                                      TrimPiece{right_half(), {}},
+                                      DoStep{PieceEdit{MergePiece{"Ball", "Clay"}}},
+                                      DoStep{PieceEdit{MergePiece{"Clay", "Ball"}}},
+                                      DoStep{PieceEdit{ScalePiece{"Clay", 2.0}}},
+                                      DoStep{PieceEdit{SplitPiece{"Clay"}}}};
   for (const Request& request : requests) thread_.send(request);
   settle_all();
   const std::vector<std::string> told = errors();

@@ -84,6 +84,30 @@ TEST_F(GizmoTest, ARingTurnsByTheAngleOfThePointerAlsoBeyondAWholeTurn) {
   EXPECT_LT(length(placed(there, unplaced(kPlace, gizmo_.center_mm)) - gizmo_.center_mm), 1e-9);
 }
 
+/// Around all handles, facing the eye: whatever the camera, what is held stays under the pointer.
+TEST_F(GizmoTest, TheOuterRingScalesAboutTheMiddle) {
+  const Lens lens = camera_.lens({});
+  const Vec3 toward = normalized(lens.eye_mm - gizmo_.center_mm);
+  const Vec3 right = normalized(cross(lens.up, toward));
+  const GizmoPart ring{Kind::size, 0};
+  EXPECT_EQ(under(1.5 * right), ring);
+  EXPECT_EQ(under(-1.5 * right), ring);
+  EXPECT_EQ(under(1.7 * right), std::nullopt);
+  GizmoDrag drag(gizmo_, ring, camera_, pixel_at(1.5 * right), kPlace);
+  const Placement there = drag.to(pixel_at(2.25 * right), false);
+  EXPECT_NEAR(drag.factor(), 1.5, 0.01);
+  const Placement wanted = scaled_about(kPlace, gizmo_.center_mm, drag.factor());
+  EXPECT_TRUE(are_same(there, wanted));
+  drag.to(pixel_at(2.2 * right), true);
+  EXPECT_NEAR(drag.factor(), 1.45, 1e-9) << "in steps of 5 %";
+  drag.to(pixel_at({}), false);
+  EXPECT_EQ(drag.factor(), 0.01) << "never to nothing";
+  // Whatever is dragged else scales nothing.
+  GizmoDrag along(gizmo_, {Kind::along, 0}, camera_, pixel_at({1.2, 0.0, 0.0}), kPlace);
+  along.to(pixel_at({2.0, 0.0, 0.0}), false);
+  EXPECT_EQ(along.factor(), 1.0);
+}
+
 TEST_F(GizmoTest, ASnapIsToMillimetresAndTo15Degrees) {
   GizmoDrag along(gizmo_, {Kind::along, 0}, camera_, pixel_at({1.2, 0.0, 0.0}), kPlace);
   const double x = along.to(pixel_at({1.77, 0.0, 0.0}), true).position_mm.x - kPlace.position_mm.x;
@@ -107,6 +131,28 @@ TEST(PieceFrame, TurnsThatWereTypedComeBack) {
   // First about x, then about y: what points up then lies to the right.
   const Placement turned_twice{{}, orientation_of({90.0, 90.0, 0.0})};
   EXPECT_LT(length(turned(turned_twice, {0.0, 1.0, 0.0}) - Vec3{1.0, 0.0, 0.0}), 1e-12);
+}
+
+TEST(PieceFrame, AShrunkLensSeesTheSmallWorldAsItSawTheLarge) {
+  for (const bool is_parallel : {false, true}) {
+    Camera camera;
+    camera.set_parallel(is_parallel);
+    camera.look_from(normalized(Vec3{0.3, -1.0, 0.5}), {0.0, 0.0, 1.0});
+    Box3 content;
+    content.include({-30.0, -30.0, -30.0});
+    content.include({30.0, 30.0, 30.0});
+    const Lens lens = camera.lens(content);
+    const Lens small = shrunk(lens, 2.5);
+    const Vec3 p{7.0, -3.0, 11.0};
+    const auto clip = [](const Lens& of, const Vec3& at) {
+      const Vec3 to = at - of.eye_mm;
+      const double away = -dot(to, of.back);
+      const double over = of.is_parallel ? 1.0 : away;
+      return Vec3{dot(to, of.right) / (over * of.tan_x), dot(to, of.up) / (over * of.tan_y),
+                  (away - of.near_mm) / (of.far_mm - of.near_mm)};
+    };
+    EXPECT_LT(length(clip(small, p / 2.5) - clip(lens, p)), 1e-12);
+  }
 }
 
 TEST(PieceFrame, ALensSeesInThePieceWhatItSawInTheSculpture) {

@@ -118,7 +118,8 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   open_first();
 }
 
-App::~App() = default;
+/// Nobody waits for a picture that is still being written.
+App::~App() { stops_still_ = true; }
 
 /// What the command line names, else the newest project that a killed window left and that is still
 /// asked about; else nothing, and start_empty() makes a ball.
@@ -242,6 +243,7 @@ Result<void> App::frame() {
   shown_force_ = steadied(felt_now, shown_force_, ui_.camera.pixel_mm_at(ui_.camera.target_mm()),
                           arrow_mm_per_n());
   if (auto turned = turn_table(); !turned) return turned;
+  step_still();
   note_last_frame();
   note_motion(now);
   ui_.chord = chord();
@@ -310,7 +312,10 @@ double App::wait_s() const {
 
 /// When there is something new to see though nothing happens until then.
 double App::next_frame_s(double now_s) const {
-  if (frames_to_settle_ > 0 || gui_.has_waiting_input() || ui_.turntable_left > 0) return now_s;
+  if (frames_to_settle_ > 0 || gui_.has_waiting_input() || ui_.turntable_left > 0 ||
+      ui_.still.done) {
+    return now_s;
+  }
   double next_s = log_.next_s();
   const auto every = [&](bool is_wanted, double s) {
     if (is_wanted) next_s = std::min(next_s, now_s + s);
@@ -370,22 +375,6 @@ void App::take_events(const std::vector<InputEvent>& events) {
       gestures_.on(event, is_taken && !gestures_.is_stroke_open());
     }
   }
-}
-
-/// An image joins those that one may emboss with, and is taken for the next stroke; anything else
-/// is opened.
-void App::take_dropped(const std::vector<std::string>& files) {
-  if (open_dialog(ui_) != Dialog::none || files.empty()) return;
-  const fs::path file = files.front();
-  if (looks_like_preset(file)) return take_preset(file);
-  if (extension_of(file) != ".png") return open_file(file, ui_, document_);
-  const auto added = add_alpha(home_, file);
-  if (!added) return tell(notice_of(added.error()));
-  ui_.brush.action = Action::emboss;
-  ui_.brush.is_stamp = false;
-  ui_.alphas.clear();
-  ui_.wants_alphas = true;
-  document_.send(LoadAlpha{added.value()});
 }
 
 /// Once: a palette that is not looked at costs nothing.
@@ -463,6 +452,8 @@ void App::take_news() {
     note_recent();
     find_left_projects();
   }
+  follow_references();
+  take_dropped_alpha();
   start_empty();
 }
 
@@ -482,11 +473,8 @@ void App::take_pieces(bool was_idle) {
     ui_.pieces.refused_at.reset();
     asked_.reset();
   }
-  const std::optional<PieceDrag>& drag = ui_.pieces.drag;
   // Shown there until the document has it there, or has refused.
-  const Placement& there = ui_.clay.pieces->active_piece().look.placement;
-  const bool is_done = drag && drag->is_sent && (are_same(drag->placement, there) || was_idle);
-  if (is_done || (drag && drag->piece != active)) ui_.pieces.drag.reset();
+  if (is_drag_done(ui_, was_idle)) ui_.pieces.drag.reset();
   const auto answer = document_.answer();
   const bool is_over = ui_.is_pointer_over_clay_view && answer;
   ui_.other_under_pointer = is_over ? answer->other : "";
@@ -537,13 +525,22 @@ void App::follow_camera() {
   if (gestures_.is_stroke_open()) return;
   const double now = window_->now_s();
   if (is_view_told() || now - view_sent_s_ < kViewEveryS) return;
-  shown_view_ = ui_.camera.display_view();
+  shown_view_ = wanted_view();
   view_sent_s_ = now;
   document_.look(shown_view_);
 }
 
+/// In more detail than the window shows while a larger picture is made.
+DisplayView App::wanted_view() const {
+  DisplayView view = ui_.camera.display_view();
+  const double detail = still_detail();
+  view.pixel_rad /= detail;
+  view.pixel_mm /= detail;
+  return view;
+}
+
 bool App::is_view_told() const {
-  const DisplayView view = ui_.camera.display_view();
+  const DisplayView view = wanted_view();
   return view.eye_mm == shown_view_.eye_mm && view.pixel_rad == shown_view_.pixel_rad &&
          view.pixel_mm == shown_view_.pixel_mm;
 }
@@ -665,6 +662,7 @@ void App::draw_panels() {
   draw_info(ui_);
   draw_history(ui_, document_);
   draw_print(ui_, document_);
+  draw_references(ui_);
   draw_pieces(ui_, document_);
   draw_presets(ui_);
   draw_measures(ui_, document_);
@@ -679,6 +677,8 @@ void App::draw_panels() {
   files_.draw(ui_, document_);
   draw_save_question(ui_, document_);
   draw_left_question(ui_, document_);
+  draw_dropped_image(ui_);
+  draw_still(ui_);
   draw_help(ui_);
   draw_keys(ui_);
   draw_search(ui_, document_);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <deque>
+#include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +24,7 @@
 #include "panels/gui.h"
 #include "panels/panels.h"
 #include "picture/renderer.h"
+#include "picture/still.h"
 
 namespace argil::viewer {
 
@@ -82,12 +86,23 @@ class App {
   void note_last_frame();
   Result<void> take_shots();
   Result<void> turn_table();
+  Picture bare_picture() const;
+  double still_detail() const;
+  DisplayView wanted_view() const;
+  std::filesystem::path still_file() const;
+  void step_still();
+  void write_still();
+  void wait_for_still();
+  void end_still(Notice notice);
   void take_screenshot();
   bool has_ended();
   void drop_untouched();
   void note_recent();
   void read_wanted_alphas();
   void take_dropped(const std::vector<std::string>& files);
+  void take_dropped_alpha();
+  void follow_references();
+  void add_references(Picture& picture) const;
   void start_empty();
   void read_habits();
   void keep_settings();
@@ -112,7 +127,13 @@ class App {
   int wait_frames_ = 0;                       ///< until its next step
   std::optional<Vec3> pointed_at_;            ///< where the widget of its step was two frames ago
   std::vector<std::filesystem::path> shots_;  ///< to be stored once this frame is drawn
-  int turntable_ = 0;                         ///< which one is being made
+  std::optional<Still> still_;                ///< that is being drawn, of still_picture_
+  Picture still_picture_;
+  std::pair<int, int> still_part_;  ///< the size of its parts
+  std::filesystem::path still_path_;
+  std::atomic<bool> stops_still_{false};
+  std::future<Result<void>> still_written_;  ///< while it is written
+  int turntable_ = 0;                        ///< which one is being made
 
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file
@@ -142,6 +163,9 @@ class App {
   double next_frame_s_ = 0.0;       ///< when one is due without an event
   std::int64_t framed_ = 0;         ///< ClayState::number of the clay that the camera has framed
   std::int64_t framed_pieces_ = 0;  ///< ClayState::pieces_added that the camera has framed
+  std::vector<ReferenceImage> kept_references_;  ///< as they are in the file
+  std::int64_t referenced_clay_ = 0;             ///< ClayState::number of the clay that they are of
+  std::filesystem::path referenced_file_;
   std::optional<PieceKey> active_piece_;  ///< of the last frame
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with

@@ -45,6 +45,7 @@ Picture App::picture() const {
   picture.lens = parts.front().camera.lens(content);
   if (parts.size() > 1) picture.right_lens = parts.back().camera.lens(content);
   add_pieces(picture);
+  add_references(picture);
   if (gizmo) add_gizmo(*gizmo, picture.lens, ui_.pieces.handle, picture);
   const ThemeColors& colors = colors_of(ui_.settings.theme);
   picture.ground = {place_of(colors.ground_low), place_of(colors.ground_high)};
@@ -88,7 +89,10 @@ void App::add_pieces(Picture& picture) const {
     if (!look.is_visible) continue;
     ShownPiece shown{list.pieces[n].key, look.placement};
     shown.is_active = n == list.active;
-    if (shown.is_active) shown.placement = shown_placement(ui_);
+    if (shown.is_active) {
+      shown.placement = shown_placement(ui_);
+      shown.scale = shown_factor(ui_);
+    }
     if (look.color) shown.color = linear_of(*look.color);
     picture.pieces.push_back(shown);
   }

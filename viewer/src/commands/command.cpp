@@ -128,6 +128,9 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::panels:
       ui.panels.has_tools = ui.panels.has_brush = ui.panels.has_view = !ui.panels.has_tools;
       return true;
+    case Command::references:
+      ui.panels.has_references = !ui.panels.has_references;
+      return true;
     case Command::history:
       ui.panels.has_history = !ui.panels.has_history;
       return true;
@@ -269,6 +272,9 @@ bool perform_on_piece(Command command, UiState& ui, DocumentThread& document) {
     case Command::piece_remove:
       edit_piece(RemovePiece{ui.clay.pieces->active_piece().look.name}, document);
       return true;
+    case Command::piece_split:
+      edit_piece(SplitPiece{ui.clay.pieces->active_piece().look.name}, document);
+      return true;
     case Command::piece_bed:
       document.send(StandPiece{StandPiece::Where::bed});
       return true;
@@ -306,6 +312,7 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
     case Command::piece_ball:
     case Command::piece_import:
     case Command::piece_duplicate:
+    case Command::piece_split:
     case Command::piece_bed:
     case Command::piece_bed_all:
     case Command::piece_flat:
@@ -422,6 +429,9 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
     case Command::turntable:
       ui.turntable_left = kTurntableFrames;
       break;
+    case Command::still:
+      ui.still.is_open = true;
+      break;
     case Command::emergency_stop:
       ui.wants_emergency_stop = true;
       break;
@@ -441,6 +451,8 @@ Dialog open_dialog(const UiState& ui) noexcept {
   if (ui.panels.is_import_open) return Dialog::import_mesh;
   if (ui.panels.is_export_open) return Dialog::export_mesh;
   if (ui.panels.is_operations_open) return Dialog::operations;
+  if (ui.dropped_image) return Dialog::dropped_image;
+  if (ui.still.is_open) return Dialog::still;
   return ui.panels.is_new_open ? Dialog::new_clay : Dialog::none;
 }
 
@@ -452,6 +464,9 @@ bool close_dialogs(UiState& ui) noexcept {
   ui.panels.is_export_open = false;
   ui.panels.is_import_open = false;
   ui.panels.has_help = false;
+  ui.dropped_image.reset();
+  ui.still.is_open = false;
+  ui.still.done.reset();
   ui.asks_to_save = false;
   ui.file_wish = FileWish::none;
   ui.after_saving = AfterSaving::nothing;

@@ -12,8 +12,12 @@
 
 namespace argil::viewer {
 
-/// Where the active piece is shown: as it is being dragged, else as the document has it.
+/// Where the active piece is shown: as it is being dragged, else as the document has it; and how
+/// many times as large.
 Placement shown_placement(const UiState& ui);
+double shown_factor(const UiState& ui);
+/// Whether what was dragged is in the document, or is no longer to be shown: the drag is over.
+bool is_drag_done(const UiState& ui, bool is_idle);
 /// The box around all that is shown, a piece that is being dragged included.
 Box3 shown_bounds(const UiState& ui);
 /// Around the middle of the active piece; nothing where it is not wanted, or the piece can neither
@@ -24,6 +28,11 @@ std::optional<Gizmo> shown_gizmo(const UiState& ui, const Camera& camera);
 std::optional<Placement> judged_placement(const UiState& ui);
 /// One step: the active piece stands there. Nothing where it does so already.
 void place_active(const Placement& placement, const UiState& ui, DocumentThread& document);
+/// One step: the active piece becomes so many times as large about that point of the sculpture.
+void scale_active(double factor, const Vec3& about_mm, const UiState& ui, DocumentThread& document);
+/// The middle of the foot of the box around the active piece's surface: scaled about it, what
+/// stands on the bed stays there. Nothing where there is no surface.
+std::optional<Vec3> foot_of_active(const UiState& ui);
 
 /// The gizmo under the mouse, and clicks on other pieces than the active one.
 ///
@@ -48,6 +57,7 @@ class PieceGestures {
   UiState& ui_;
   DocumentThread& document_;
   std::optional<GizmoDrag> drag_;
+  Vec3 middle_mm_;                        ///< of the gizmo when that began
   WindowPart drag_part_;                  ///< in which it began
   std::optional<InputEvent> last_press_;  ///< on another piece
 };

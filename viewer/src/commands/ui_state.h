@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -28,9 +29,11 @@
 #include "document/settings.h"
 #include "picture/camera.h"
 #include "picture/gizmo.h"
+#include "picture/reference_image.h"
 #include "picture/renderer.h"
 #include "picture/slice_chord.h"
 #include "picture/stereo.h"
+#include "picture/still.h"
 
 namespace argil::viewer {
 
@@ -59,6 +62,7 @@ struct PanelState {
   bool has_haptics = false;
   bool has_print = false;
   bool has_pieces = false;
+  bool has_references = false;
   bool has_measures = false;
   bool has_info = false;
   bool has_history = false;
@@ -81,7 +85,9 @@ enum class Dialog {
   import_mesh,
   export_mesh,
   operations,
-  new_clay
+  new_clay,
+  dropped_image,
+  still
 };
 
 /// What a file is asked for.
@@ -94,6 +100,7 @@ enum class FileWish {
   import_piece,
   stamp,
   alpha,
+  reference,
   firmware,
   path
 };
@@ -168,7 +175,9 @@ struct BrushDrag {
 struct PieceDrag {
   PieceKey piece = 0;
   Placement placement = {};
-  bool is_sent = false;  ///< to the document; while it is held it is not
+  bool is_sent = false;      ///< to the document; while it is held it is not
+  double factor = 1.0;       ///< how many times as large it is shown
+  std::int64_t changes = 0;  ///< ClayState::changes when it was sent
 };
 
 /// What the window remembers of pieces.
@@ -186,6 +195,9 @@ struct PieceChoice {
   Vec3 position_mm;
   Vec3 turns_deg;
   Quat turned;  ///< what those turns are
+  Vec3 size_mm;
+  double percent = 100.0;
+  bool is_typing_size = false;
   bool is_typing = false;
   /// Where a press was on another piece, while the pointer is near: it is said how to sculpt that.
   std::optional<Camera::Pixel> refused_at;
@@ -213,6 +225,13 @@ struct PresetChoice {
 
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
+
+/// A picture larger than the window.
+struct StillChoice {
+  bool is_open = false;  ///< the dialog
+  StillOptions options;
+  std::optional<double> done;  ///< how much of it, while it is made
+};
 
 /// Pictures of a turntable: three seconds of a film.
 inline constexpr int kTurntableFrames = 72;
@@ -270,6 +289,10 @@ struct UiState {
   std::vector<float> pressures;    ///< of the pen's last strokes, as it told them, the newest last
   std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
 
+  std::vector<ReferenceImage> references;
+  std::optional<std::filesystem::path> dropped_image;  ///< it is asked what it is for
+  std::optional<std::filesystem::path> dropped_alpha;  ///< to emboss with
+
   std::vector<std::filesystem::path> recent;
   std::vector<LeftProject> left_projects;  ///< newest first; without the one that is open
   std::filesystem::path folder;            ///< of the last file
@@ -285,7 +308,8 @@ struct UiState {
   std::vector<Vec3> drawn_path_mm;    ///< so far, while it is dragged
   bool is_clutched = false;           ///< the hand moves without the tool
   std::string other_under_pointer;    ///< the name of the piece that the pointer is over; "" none
-  int turntable_left = 0;             ///< pictures to come, of kTurntableFrames once around
+  StillChoice still;
+  int turntable_left = 0;  ///< pictures to come, of kTurntableFrames once around
 
   // What the document thread reports, copied once a frame.
   ClayState clay;

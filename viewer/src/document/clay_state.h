@@ -92,6 +92,7 @@ struct ClayState {
   bool has_mask = false;
   bool is_stroke_open = false;
   Box3 bounds_mm;                 ///< in its own frame
+  Box3 surface_mm;                ///< likewise, of its surface, as the last step left it
   Box3 all_bounds_mm;             ///< of all visible pieces where they stand
   std::int64_t pieces_added = 0;  ///< so far, as the window shall see at once
   double voxel_mm = 0.0;

@@ -74,6 +74,7 @@ void DocumentWorker::post_state() {
     state.has_mask = clay.has_mask();
     state.is_stroke_open = clay.is_stroke_open();
     state.bounds_mm = clay.bounds_mm();
+    state.surface_mm = surface_of_active();
     state.voxel_mm = clay.options().voxel_mm;
     state.levels = clay.level_stats();
     state.use = clay.use();
@@ -198,7 +199,7 @@ PointerAnswer DocumentWorker::answer(const Ray& ray, const std::optional<Touch>&
   PointerAnswer answer;
   answer.ray = ray;
   if (document_.has_project()) {
-    answer.piece = feed_.key_of(document_.clay());
+    answer.piece = feed_.active_key(document_.sculpture());
     answer.placement = active_look().placement;
   }
   const auto picked = pick_at(ray);
@@ -512,6 +513,7 @@ void DocumentWorker::on(const DoStep& wanted) {
   const auto* move = std::get_if<io::HistoryStep>(&wanted.step);
   const bool is_history = move != nullptr;
   const bool may_mask = may_touch_mask(wanted.step);
+  const std::size_t pieces_before = document_.sculpture().piece_count();
   if (is_history) {
     if (auto done = move_in_history(*move); !done) return complain_about(*move, done.error());
   } else {
@@ -527,7 +529,7 @@ void DocumentWorker::on(const DoStep& wanted) {
   ++changes_;
   piece_list_changed();
   is_slice_stale_ = true;
-  if (const auto* edit = std::get_if<PieceEdit>(&wanted.step)) post_merge(*edit);
+  if (const auto* edit = std::get_if<PieceEdit>(&wanted.step)) post_edit(*edit, pieces_before);
   if (may_mask) feed_.touch_masks();
 }
 
@@ -758,7 +760,7 @@ void DocumentWorker::on(const ExportMesh& wanted) {
   // Posted as a new object: the window may still show the former one.
   auto report = std::make_shared<PrintReport>();
   report->changes = changes_;
-  report->piece = feed_.key_of(document_.clay());
+  report->piece = feed_.active_key(document_.sculpture());
   report->verdict = exported.value().verdict;
   report->exported = std::move(exported).value();
   const bool good = report->verdict.printable;
@@ -781,7 +783,7 @@ void DocumentWorker::on(const CheckPrint& check) {
   if (!judged) return complain(judged.error());
   auto report = std::make_shared<PrintReport>();
   report->changes = changes_;
-  report->piece = feed_.key_of(document_.clay());
+  report->piece = feed_.active_key(document_.sculpture());
   report->verdict = std::move(judged).value();
   report->printer = check.printer.name;
   report_ = std::move(report);

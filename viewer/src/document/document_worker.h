@@ -117,11 +117,13 @@ class DocumentWorker {
   void post_slice();
 
   void add_piece(const AddPiece& add);
-  std::optional<TriangleMesh> standing_surface(std::size_t piece);
-  void stand_at(std::size_t piece, const Placement& placement);
-  void stand_all_on_bed();
-  Placement laid_on_most(const TriangleMesh& surface, const Vec3& middle_mm);
-  void post_merge(const PieceEdit& edit);
+  Result<TriangleMesh> standing_surface(std::size_t piece, const Progress& progress);
+  Result<Placement> standing_place(StandPiece::Where where, const Progress& progress);
+  Result<PlacePieces> places_on_bed(const Progress& progress);
+  Result<Placement> laid_on_most(const TriangleMesh& surface, const Vec3& middle_mm,
+                                 const Progress& progress);
+  const Box3& surface_of_active();
+  void post_edit(const PieceEdit& edit, std::size_t pieces_before);
   bool may_touch_mask(const io::ScriptStep& step) const;
   void piece_list_changed() noexcept { is_list_stale_ = looks_at_all_ = true; }
   void export_pieces(const ExportMesh& wanted);
@@ -157,6 +159,9 @@ class DocumentWorker {
   std::shared_ptr<const MeshOffer> offer_;
   std::shared_ptr<const StepNames> step_names_;
   std::int64_t named_changes_ = -1;  ///< changes_ when these were made
+  Box3 surface_mm_;                  ///< of the active piece
+  std::int64_t surface_changes_ = -1;
+  PieceKey surface_piece_ = 0;
   std::string told_problem_;
   std::int64_t dabs_ = 0;
   std::int64_t strokes_ = 0;

@@ -74,7 +74,8 @@ struct ImportPiece {
 struct DuplicatePiece {};
 /// Moves the active piece: its lowest point straight to z = 0; the middle of the box around it to x
 /// = y = 0; or turned so that it lies on the largest side that it can rest on, at z = 0. Or all
-/// visible pieces together straight, the lowest point of all to z = 0, one step for each.
+/// visible pieces together straight, the lowest point of all to z = 0, in one step. Stopped, or
+/// where one of them is locked, all stay where they are.
 struct StandPiece {
   enum class Where { bed, middle, flat, all_on_bed } where = Where::bed;
 };

@@ -23,6 +23,13 @@ SceneFeed::Followed& SceneFeed::follow(const Clay& clay) {
   return known->second;
 }
 
+PieceKey SceneFeed::key_of(const Sculpture& sculpture, std::size_t n) {
+  const Clay& clay = sculpture.clay(n);
+  // One that came meanwhile may have been there before.
+  if (!followed_.contains(&clay)) forget_gone(sculpture);
+  return follow(clay).key;
+}
+
 void SceneFeed::touch_masks() noexcept {
   for (auto& [clay, followed] : followed_) followed.feed.touch_mask_everywhere();
 }

@@ -46,9 +46,11 @@ class SceneFeed {
 
   /// Of the piece that strokes go to.
   BlockFeed& active(const Sculpture& sculpture) { return follow(sculpture.clay()).feed; }
-  /// The number of a piece, by its clay: the same for as long as the piece is there, and again when
-  /// undo or redo brings it back, so that what was measured on it is found there.
-  PieceKey key_of(const Clay& clay) { return follow(clay).key; }
+  /// The number of piece `n`, by its clay: the same for as long as the piece is there, and again
+  /// when undo or redo brings it back, so that what was measured on it is found there. It may be
+  /// asked before the next update knows of the piece.
+  PieceKey key_of(const Sculpture& sculpture, std::size_t n);
+  PieceKey active_key(const Sculpture& sculpture) { return key_of(sculpture, sculpture.active()); }
 
   /// The mask may differ anywhere, of any piece.
   void touch_masks() noexcept;

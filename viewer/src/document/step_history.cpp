@@ -66,6 +66,16 @@ struct NameOf {
                           : change.is_locked  ? (*change.is_locked ? " locked" : " unlocked")
                                               : " coloured");
   }
+  std::string operator()(const PlacePieces& place) const {
+    const std::size_t count = place.places.size();
+    return (count == 1 ? place.places.front().name : std::to_string(count) + " pieces") + " moved";
+  }
+  std::string operator()(const ScalePiece& scale) const {
+    char text[32];
+    std::snprintf(text, sizeof text, " scaled to %.4g %%", 100.0 * scale.factor);
+    return scale.name + text;
+  }
+  std::string operator()(const SplitPiece& split) const { return split.name + " split"; }
   std::string operator()(const MergePiece& merge) const {
     const char* what = merge.kind == CombineKind::unite      ? "merged with "
                        : merge.kind == CombineKind::subtract ? "minus "

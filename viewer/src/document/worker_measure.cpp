@@ -12,15 +12,14 @@ MeasureAnswer DocumentWorker::measure(const MeasureQuestion& question) {
   if (!document_.has_project()) return answer;
   const Sculpture& sculpture = document_.sculpture();
   for (std::size_t n = 0; question.kept && n < sculpture.piece_count(); ++n) {
-    const Clay& of = sculpture.clay(n);
-    if (feed_.key_of(of) == question.kept->piece)
-      answer.is_kept = is_still_there(of, *question.kept);
+    if (feed_.key_of(sculpture, n) != question.kept->piece) continue;
+    answer.is_kept = is_still_there(sculpture.clay(n), *question.kept);
   }
   const auto picked = measure_pick(sculpture, question.ray, question.seen);
   if (!picked) return answer;
   const Clay& clay = sculpture.clay(picked->piece);
-  answer.point =
-      MeasurePoint{feed_.key_of(clay), picked->own_mm, picked->own_normal, picked->is_on_slice};
+  answer.point = MeasurePoint{feed_.key_of(sculpture, picked->piece), picked->own_mm,
+                              picked->own_normal, picked->is_on_slice};
   answer.distance_mm = picked->distance_mm;
   answer.is_on_slice = picked->is_on_slice;
   if (!question.wants_far_side || picked->is_on_slice) return answer;

@@ -1,28 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the document thread does with pieces: their list, where they stand, and printing all of
-// them.
+// What the document thread does with pieces: their list, and printing all of them. Where they
+// stand: worker_stand.cpp.
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <filesystem>
-#include <limits>
-#include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "argil/engine/surface.h"
 #include "argil/io/clay_check.h"
 #include "argil/io/piece_export.h"
 #include "argil/io/prepared_mesh.h"
 #include "argil/mesh/check.h"
-#include "argil/mesh/print_orientation.h"
 
 #include "base/text.h"
 #include "document/document_worker.h"
 #include "picture/piece_frame.h"
 
 namespace argil::viewer {
+namespace {
+
+/// The names of pieces whose clay an edit changes or takes in.
+std::vector<std::string> worked_pieces(const PieceEdit& edit) {
+  if (const auto* merge = std::get_if<MergePiece>(&edit)) return {merge->name, merge->other};
+  if (const auto* scale = std::get_if<ScalePiece>(&edit)) return {scale->name};
+  if (const auto* split = std::get_if<SplitPiece>(&edit)) return {split->name};
+  return {};
+}
+
+}  // namespace
 
 /// Of the active piece.
 const PieceLook& DocumentWorker::active_look() {
@@ -40,7 +49,7 @@ Result<void> DocumentWorker::check_may_be_worked() {
 
 /// Errors  bad_input: another piece is the active one by now.
 Result<void> DocumentWorker::check_is_active(std::optional<PieceKey> piece) {
-  if (!piece || feed_.key_of(document_.clay()) == *piece) return {};
+  if (!piece || feed_.active_key(document_.sculpture()) == *piece) return {};
   return Error{ErrorKind::bad_input, "this was meant for another piece than " +
                                          in_quotes(active_look().name) +
                                          ", which is the one that is worked now; do it again"};
@@ -51,13 +60,12 @@ Result<void> DocumentWorker::check_step(const DoStep& wanted) {
   if (std::holds_alternative<io::HistoryStep>(wanted.step)) return {};
   const Sculpture& sculpture = document_.sculpture();
   if (const auto* edit = std::get_if<PieceEdit>(&wanted.step)) {
-    const auto* merge = std::get_if<MergePiece>(edit);
-    if (merge == nullptr) return {};
-    for (const std::string& name : {merge->name, merge->other}) {
+    for (const std::string& name : worked_pieces(*edit)) {
       const auto at = sculpture.find(name);
       if (!at || sculpture.look(*at).is_visible) continue;  // that there is none is said later
       return Error{ErrorKind::bad_input,
-                   "the piece " + in_quotes(name) + " is hidden; show it before it is merged"};
+                   "the piece " + in_quotes(name) + " is hidden; show it before it is " +
+                       (std::holds_alternative<MergePiece>(*edit) ? "merged" : "changed")};
     }
     return {};
   }
@@ -76,7 +84,7 @@ void DocumentWorker::post_pieces(ClayState& state) {
     list->active = sculpture.active();
     for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
       const Clay& clay = sculpture.clay(n);
-      list->pieces.push_back({feed_.key_of(clay), sculpture.look(n), clay.bounds_mm()});
+      list->pieces.push_back({feed_.key_of(sculpture, n), sculpture.look(n), clay.bounds_mm()});
     }
     pieces_ = std::move(list);
   }
@@ -106,7 +114,8 @@ bool DocumentWorker::may_touch_mask(const io::ScriptStep& step) const {
     return at >= history.steps().size() || may_touch_mask(history.steps()[at]);
   }
   const auto* edit = std::get_if<PieceEdit>(&step);
-  return edit == nullptr || std::holds_alternative<MergePiece>(*edit);
+  return edit == nullptr || std::holds_alternative<MergePiece>(*edit) ||
+         std::holds_alternative<ScalePiece>(*edit) || std::holds_alternative<SplitPiece>(*edit);
 }
 
 void DocumentWorker::on(const SelectPieceAt& wanted) {
@@ -118,8 +127,14 @@ void DocumentWorker::on(const SelectPieceAt& wanted) {
   on(DoStep{PieceEdit{SelectPiece{sculpture.look(picked->piece).name}}});
 }
 
-/// Which piece is gone: the window may have chosen it.
-void DocumentWorker::post_merge(const PieceEdit& edit) {
+/// How many there are now, of a piece that was split; or which one is gone: the window may have
+/// chosen it.
+void DocumentWorker::post_edit(const PieceEdit& edit, std::size_t pieces_before) {
+  if (const auto* split = std::get_if<SplitPiece>(&edit)) {
+    const std::size_t more = document_.sculpture().piece_count() - pieces_before;
+    post(Notice::Kind::done, in_quotes(split->name) + " is " + std::to_string(more + 1) +
+                                 " pieces now; crumbs stayed with the largest");
+  }
   const auto* merge = std::get_if<MergePiece>(&edit);
   if (merge == nullptr || merge->keeps_other) return;
   post(Notice::Kind::done, in_quotes(merge->other) + " was combined with " +
@@ -179,91 +194,6 @@ void DocumentWorker::on(const DuplicatePiece&) {
   on(DoStep{PieceEdit{CopyPiece{name, document_.sculpture().free_name(name)}}});
 }
 
-/// Where the surface of a piece stands. By the surface itself: the bounds of a clay are those of
-/// its voxels. Nothing where that was stopped or failed, which is complained of.
-std::optional<TriangleMesh> DocumentWorker::standing_surface(std::size_t piece) {
-  const Progress progress = outbox_.begin_task("measure");
-  auto surface = extract_surface(document_.sculpture().clay(piece), progress);
-  outbox_.end_task();
-  if (!surface) {
-    if (surface.error().kind != ErrorKind::interrupted) complain(surface.error());
-    return std::nullopt;
-  }
-  place(document_.sculpture().look(piece).placement, surface.value());
-  return std::move(surface).value();
-}
-
-/// One step, unless it stands there but for what it missed the last time by rounding.
-void DocumentWorker::stand_at(std::size_t piece, const Placement& placement) {
-  constexpr double kThereMm = 1e-9;
-  const PieceLook& look = document_.sculpture().look(piece);
-  const bool is_there = length(placement.position_mm - look.placement.position_mm) < kThereMm &&
-                        placement.orientation == look.placement.orientation;
-  if (is_there) return;
-  ChangePiece change{look.name};
-  change.placement = placement;
-  on(DoStep{PieceEdit{change}});
-}
-
-/// All that are visible by the same way, so that what was put together stays so.
-void DocumentWorker::stand_all_on_bed() {
-  const Sculpture& sculpture = document_.sculpture();
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
-    const PieceLook& look = sculpture.look(n);
-    if (!look.is_visible) continue;
-    if (look.is_locked) {
-      return complain(
-          {ErrorKind::bad_input, "the piece " + in_quotes(look.name) +
-                                     " is locked; free or hide it, and drop all again"});
-    }
-    const auto surface = standing_surface(n);
-    if (!surface) return;
-    for (const Vec3& point : surface->positions) lowest = std::min(lowest, point.z);
-  }
-  if (!std::isfinite(lowest)) return;
-  for (std::size_t n = 0; n < sculpture.piece_count(); ++n) {
-    const PieceLook& look = sculpture.look(n);
-    if (look.is_visible) stand_at(n, moved(look.placement, {0.0, 0.0, -lowest}));
-  }
-}
-
-/// Turned about the middle of its box so that `up` is up.
-Placement DocumentWorker::laid_on_most(const TriangleMesh& surface, const Vec3& middle_mm) {
-  const Placement& at = active_look().placement;
-  const Vec3 z{0.0, 0.0, 1.0};
-  const Vec3 up = mesh::lying_on_most(surface, z, document_.clay().options().voxel_mm);
-  // What it misses by less is rounding, and no reason for another step.
-  constexpr double kThere = 1e-9;
-  const Vec3 across = cross(up, z);
-  if (up.z > 0.0 && length(across) < kThere) return at;
-  const Vec3 axis = length(across) < kThere ? Vec3{1.0, 0.0, 0.0} : normalized(across);
-  const double angle = std::atan2(length(across), up.z) * 180.0 / std::numbers::pi;
-  return turned_about(at, middle_mm, axis, angle);
-}
-
-void DocumentWorker::on(const StandPiece& wanted) {
-  if (!has_clay("move")) return;
-  end_open_stroke();
-  if (wanted.where == StandPiece::Where::all_on_bed) return stand_all_on_bed();
-  if (auto free = document_.sculpture().check_unlocked(); !free) return complain(free.error());
-  const std::size_t active = document_.sculpture().active();
-  auto surface = standing_surface(active);
-  if (!surface || surface->positions.empty()) return;
-  Box3 box;
-  for (const Vec3& point : surface->positions) box.include(point);
-  Placement at = active_look().placement;
-  if (wanted.where == StandPiece::Where::flat) {
-    const Placement before = at;
-    at = laid_on_most(*surface, box.center());
-    box = {};
-    for (const Vec3& point : surface->positions) box.include(placed(at, unplaced(before, point)));
-  }
-  stand_at(active, moved(at, wanted.where == StandPiece::Where::middle
-                                 ? Vec3{-box.center().x, -box.center().y, 0.0}
-                                 : Vec3{0.0, 0.0, -box.min.z}));
-}
-
 // ---- printing ----------------------------------------------------------------------------------
 
 /// The visible pieces as named parts of one file, each measured and judged by itself.
@@ -286,7 +216,7 @@ void DocumentWorker::export_pieces(const ExportMesh& wanted) {
   const io::PieceExport& shown = own == parts.end() ? parts.front() : *own;
   const auto at = document_.sculpture().find(shown.name);
   assert(at);
-  report->piece = feed_.key_of(document_.sculpture().clay(*at));
+  report->piece = feed_.key_of(document_.sculpture(), *at);
   report->verdict = shown.report.verdict;
   report->exported = shown.report;
   report_ = std::move(report);

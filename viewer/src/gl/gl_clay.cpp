@@ -43,8 +43,8 @@ void set_lens(const GlProgram& program, const EyeView& eye, const ClipPlane& cut
   const double slopes = eye.lens.is_parallel ? 0.0 : 1.0;
   const double x = 2.0 * eye.lens.tan_x / eye.part.width * slopes;
   const double y = 2.0 * eye.lens.tan_y / eye.part.height * slopes;
-  program.set("ray", x, y, -eye.lens.tan_x * slopes - x * eye.part.x,
-              -eye.lens.tan_y * slopes - y * eye.part.y);
+  program.set("ray", x, y, (eye.lens.shift_x - eye.lens.tan_x) * slopes - x * eye.part.x,
+              (eye.lens.shift_y - eye.lens.tan_y) * slopes - y * eye.part.y);
 }
 
 }  // namespace
@@ -80,7 +80,8 @@ std::vector<BoundPlane> bounds_of(const EyeView& eye, const PixelRect& area, con
   // A side goes through the eye, or stands parallel to the view: on `inward` of a column or row, so
   // many pixels from the part's beginning. Normals need no unit length here.
   const auto add = [&](const Vec3& axis, double tangent, double pixel, int pixels, double inward) {
-    const double slope = (2.0 * pixel / pixels - 1.0) * tangent;
+    const double shift = &axis == &lens.right ? lens.shift_x : lens.shift_y;
+    const double slope = (2.0 * pixel / pixels - 1.0) * tangent + shift;
     planes.push_back(lens.is_parallel ? plane_at(at + slope * axis, inward * axis)
                                       : plane_at(at, inward * (axis + slope * lens.back)));
   };
@@ -108,8 +109,10 @@ PixelRect area_of(const EyeView& eye, const Box3& box_mm) {
     const double away = -dot(to, lens.back);
     if (away < lens.near_mm && !lens.is_parallel) return eye.part;
     const double over = lens.is_parallel ? 1.0 : away;
-    const double x = 0.5 * eye.part.width * (1.0 + dot(to, lens.right) / (over * lens.tan_x));
-    const double y = 0.5 * eye.part.height * (1.0 + dot(to, lens.up) / (over * lens.tan_y));
+    const double across = dot(to, lens.right) / over - lens.shift_x;
+    const double upward = dot(to, lens.up) / over - lens.shift_y;
+    const double x = 0.5 * eye.part.width * (1.0 + across / lens.tan_x);
+    const double y = 0.5 * eye.part.height * (1.0 + upward / lens.tan_y);
     left = std::min(left, x);
     right = std::max(right, x);
     bottom = std::min(bottom, y);
@@ -127,11 +130,12 @@ PixelRect area_of(const EyeView& eye, const Box3& box_mm) {
 
 PieceView view_of_piece(const ShownPiece& piece, const GlBlocks* blocks, const EyeView& eye,
                         const ClipPlane& cut) {
-  PieceView view{
-      piece.piece, blocks, {unplaced(piece.placement, eye.lens), eye.part}, cut, piece.color};
+  const Lens own = shrunk(unplaced(piece.placement, eye.lens), piece.scale);
+  PieceView view{piece.piece, blocks, {own, eye.part}, cut, piece.color};
   if (!cut) return view;
   view.cut->normal = turned_back(piece.placement, cut->normal);
   view.cut->offset += dot(cut->normal, piece.placement.position_mm);
+  view.cut->offset /= piece.scale;
   return view;
 }
 

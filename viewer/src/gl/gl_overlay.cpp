@@ -23,6 +23,7 @@ void use(const GlProgram& program, const EyeView& eye) {
   program.set("values", kValuesUnit);
   program.set("part", eye.part.x, eye.part.y, eye.part.width, eye.part.height);
   program.set("lens", eye.lens.near_mm, eye.lens.far_mm, eye.lens.tan_x, eye.lens.tan_y);
+  program.set("shift", eye.lens.shift_x, eye.lens.shift_y);
   program.set("is_parallel", eye.lens.is_parallel ? 1 : 0);
 }
 

@@ -22,6 +22,7 @@
 #include "gl/gl_debug.h"
 #include "gl/gl_marks.h"
 #include "gl/gl_overlay.h"
+#include "gl/gl_references.h"
 #include "gl/gl_screen_shaders.h"
 #include "gl/gl_slice.h"
 #include "gl/gl_targets.h"
@@ -41,6 +42,7 @@ struct Passes {
   GlOverlay overlay;
   GlSlice slice;
   GlMarks marks;
+  GlReferences references;
 
   static Result<Passes> make(ObjectCount& count);
 };
@@ -57,8 +59,11 @@ Result<Passes> Passes::make(ObjectCount& count) {
   if (!slice) return slice.error();
   auto marks = GlMarks::make(count);
   if (!marks) return marks.error();
+  auto references = GlReferences::make(count);
+  if (!references) return references.error();
   return Passes{std::move(background).value(), GlVertexArray(count),     std::move(clay).value(),
-                std::move(overlay).value(),    std::move(slice).value(), std::move(marks).value()};
+                std::move(overlay).value(),    std::move(slice).value(), std::move(marks).value(),
+                std::move(references).value()};
 }
 
 /// The eyes of a picture, from left to right; one where there is no room for two.
@@ -77,8 +82,9 @@ bool is_drawable(const std::optional<SlicePicture>& slice) {
 /// Whether two pictures differ in their marks alone.
 bool have_same_clay(const Picture& a, const Picture& b) {
   return a.lens == b.lens && a.right_lens == b.right_lens && a.pieces == b.pieces &&
-         a.ground == b.ground && a.shading == b.shading && a.has_wires == b.has_wires &&
-         a.has_occlusion == b.has_occlusion && a.is_moving == b.is_moving && a.slice == b.slice;
+         a.ground == b.ground && a.ground_rows == b.ground_rows && a.shading == b.shading &&
+         a.has_wires == b.has_wires && a.has_occlusion == b.has_occlusion &&
+         a.is_moving == b.is_moving && a.slice == b.slice && a.references == b.references;
 }
 
 /// Whether a pixel of the clay shows what is around it.
@@ -231,6 +237,7 @@ Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int hei
   targets_.begin_picture();
   for (const EyeView& eye : drawn_eyes_) {
     glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
+    passes_.references.draw(picture.references, true, eye);
     passes_.marks.draw(picture, eye, targets_);
   }
   drawn_ = picture;
@@ -244,6 +251,7 @@ Result<void> GlRenderer::draw_clay(const Picture& picture) {
     passes_.slice.take(*count_, *picture.slice);
   }
   if (has_overlay(picture)) touched_.add_all();
+  passes_.references.take(*count_, picture.references);
   drawn_triangles_ = 0;
   bool is_whole = true;
   for (const EyeView& eye : drawn_eyes_) {
@@ -278,9 +286,12 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
   passes_.background.use();
   passes_.background.set("low", picture.ground.low);
   passes_.background.set("high", picture.ground.high);
+  const auto& [bottom, top] = picture.ground_rows;
+  passes_.background.set("rows", bottom, top - bottom);
   glBindVertexArray(passes_.nothing.name());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthMask(GL_TRUE);
+  passes_.references.draw(picture.references, false, eye);
 
   const bool has_slice = is_drawable(picture.slice);
   const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;

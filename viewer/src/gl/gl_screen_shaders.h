@@ -15,11 +15,12 @@ void main() {
 
 inline constexpr const char* kBackgroundFragment = R"(
 in vec2 fraction;
+uniform vec2 rows;  // where the viewport begins in the whole, and its share of that
 out vec4 picture;
 uniform vec3 low;
 uniform vec3 high;
 void main() {
-  vec3 color = mix(low, high, fraction.y);
+  vec3 color = mix(low, high, rows.x + rows.y * fraction.y);
   // Half a step of 8 bits to and fro, so that the gradient has no bands.
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   picture = vec4(color + (noise - 0.5) / 255.0, 1.0);
@@ -32,6 +33,7 @@ inline constexpr const char* kPositionFunctions = R"(
 uniform sampler2D depth;
 uniform vec4 part;
 uniform vec4 lens;
+uniform vec2 shift;  // of the picture's middle, as tan_x and tan_y
 uniform bool is_parallel;
 float distance_at(float d) {
   return is_parallel ? mix(lens.x, lens.y, d)
@@ -43,7 +45,7 @@ float depth_at(vec2 pixel) {
 }
 vec3 position_at(vec2 pixel, float d) {
   float away = distance_at(d);
-  vec2 slope = (2.0 * (pixel - part.xy) / part.zw - 1.0) * lens.zw;
+  vec2 slope = (2.0 * (pixel - part.xy) / part.zw - 1.0) * lens.zw + shift;
   return vec3(slope * (is_parallel ? 1.0 : away), -away);
 }
 float pixel_mm_at(float away) { return 2.0 * lens.w * (is_parallel ? 1.0 : away) / part.w; }

@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "commands/command.h"
+#include "commands/references.h"
 #include "panels/dialog.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
@@ -26,7 +27,7 @@ std::vector<std::string> endings_of(FileWish wish) {
   std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
   if (wish == FileWish::save_as) return {".vdb"};
   if (wish == FileWish::firmware) return {".bin"};
-  if (wish == FileWish::alpha) return {".png"};
+  if (wish == FileWish::alpha || wish == FileWish::reference) return {".png"};
   if (wish == FileWish::path) return {".jsonl", ".csv", ".txt", ".xyz"};
   if (wish == FileWish::export_mesh) return meshes;
   meshes.emplace_back(".gltf");  // only read
@@ -63,6 +64,8 @@ const char* title_of(FileWish wish) {
       return "Stamp with a mesh";
     case FileWish::alpha:
       return "Emboss an image";
+    case FileWish::reference:
+      return "A reference image";
     case FileWish::firmware:
       return "Firmware of the Falcon";
     case FileWish::path:
@@ -82,6 +85,7 @@ const char* verb_of(FileWish wish) {
          : wish == FileWish::import_piece ? "Add it"
          : wish == FileWish::stamp        ? "Stamp with it"
          : wish == FileWish::alpha        ? "Emboss it"
+         : wish == FileWish::reference    ? "Show it"
          : wish == FileWish::firmware     ? "Send it"
          : wish == FileWish::path         ? "Follow it"
          : wish == FileWish::save_as      ? "Save there"
@@ -240,6 +244,8 @@ void FileList::take(fs::path file, UiState& ui, DocumentThread& document) {
     document.send(LoadStamp{file});
   } else if (wish_ == FileWish::alpha) {
     document.send(LoadAlpha{file});
+  } else if (wish_ == FileWish::reference) {
+    add_reference(file, ui);
   } else if (wish_ == FileWish::firmware) {
     // Absolute, since the next window may begin in another folder.
     std::error_code error;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <iterator>
@@ -226,6 +228,8 @@ void draw_changes(UiState& ui, DocumentThread& document) {
   command_button(Command::piece_duplicate, "Duplicate##piece", ui, document);
   ImGui::SameLine();
   command_button(Command::piece_remove, "Remove##piece", ui, document);
+  ImGui::SameLine();
+  command_button(Command::piece_split, "Split##piece", ui, document);
   const std::string other = other_piece(ui);
   if (other.empty()) return;
   std::vector<std::string> names;
@@ -265,6 +269,46 @@ bool draw_numbers(const std::array<const char*, 3>& labels, Vec3& values, double
   return is_entered;
 }
 
+/// By how much the side changes that was typed: of those that differ the one that does most.
+double wanted_factor(const Vec3& now, const Vec3& wanted) {
+  double factor = 1.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(now[axis] > 0.0 && wanted[axis] > 0.0)) continue;
+    const double own = wanted[axis] / now[axis];
+    if (std::abs(std::log(own)) > std::abs(std::log(factor))) factor = own;
+  }
+  return factor;
+}
+
+/// How large the active piece is, by its surface, in its own frame: one side decides for all three.
+/// Its foot stays where it is.
+void draw_piece_size(UiState& ui, DocumentThread& document) {
+  constexpr double kMostMm = 1e6;
+  constexpr double kLeastPercent = 0.1;
+  constexpr double kMostPercent = 1e5;
+  const Box3& box = ui.clay.surface_mm;
+  const auto foot = foot_of_active(ui);
+  if (!foot) return;
+  PieceChoice& choices = ui.pieces;
+  const Vec3 now = shown_factor(ui) * box.size();
+  if (!choices.is_typing_size) {
+    choices.size_mm = now;
+    choices.percent = 100.0 * shown_factor(ui);
+  }
+  choices.is_typing_size = false;
+  ImGui::TextDisabled("Size along its own x, y, z, mm");
+  double factor = 1.0;
+  if (draw_numbers({"##sx", "##sy", "##sz"}, choices.size_mm, kMostMm, "%.3f",
+                   choices.is_typing_size)) {
+    factor = wanted_factor(now, choices.size_mm);
+  }
+  ImGui::SetNextItemWidth(80.0F * unit());
+  number("Scale, %", choices.percent, kLeastPercent, kMostPercent, "%.4g");
+  choices.is_typing_size = choices.is_typing_size || ImGui::IsItemActive();
+  if (ImGui::IsItemDeactivatedAfterEdit()) factor = choices.percent / 100.0;
+  if (factor > 0.0) scale_active(factor, *foot, ui, document);
+}
+
 /// Where the active piece stands. A number that is typed is kept as it is: the turns of an
 /// orientation are not the only ones that lead to it.
 void draw_place(UiState& ui, DocumentThread& document) {
@@ -291,6 +335,7 @@ void draw_place(UiState& ui, DocumentThread& document) {
     if (is_turned) wanted.orientation = choices.turned = orientation_of(choices.turns_deg);
     place_active(wanted, ui, document);
   }
+  draw_piece_size(ui, document);
   check("Gizmo", choices.has_gizmo);
   ImGui::SameLine();
   command_button(Command::piece_bed, "Drop to bed##piece", ui, document);

@@ -42,6 +42,9 @@ void draw_info(UiState& ui);
 void draw_history(UiState& ui, DocumentThread& document);
 void draw_haptics(UiState& ui, HapticControl& control, DocumentThread& document);
 void draw_print(UiState& ui, DocumentThread& document);
+void draw_still(UiState& ui);
+void draw_references(UiState& ui);
+void draw_dropped_image(UiState& ui);
 void draw_pieces(UiState& ui, DocumentThread& document);
 void draw_switch_hint(const UiState& ui);
 /// Numbers and ends of what was measured, over the picture.

@@ -61,6 +61,9 @@ Matrix Lens::projection() const noexcept {
   assert(tan_x > 0.0 && tan_y > 0.0 && far_mm > near_mm);
   m[0] = static_cast<float>(1.0 / tan_x);
   m[5] = static_cast<float>(1.0 / tan_y);
+  // In perspective what is shifted grows with the distance, and so does the clip space's w.
+  m[is_parallel ? 12 : 8] = static_cast<float>((is_parallel ? -1.0 : 1.0) * shift_x / tan_x);
+  m[is_parallel ? 13 : 9] = static_cast<float>((is_parallel ? -1.0 : 1.0) * shift_y / tan_y);
   // OpenGL's clip space: depth -1 at the near plane to 1 at the far plane.
   const double span = far_mm - near_mm;
   if (is_parallel) {
@@ -73,6 +76,16 @@ Matrix Lens::projection() const noexcept {
     m[14] = static_cast<float>(-2.0 * far_mm * near_mm / span);
   }
   return m;
+}
+
+Lens cropped(const Lens& lens, double left, double right, double bottom, double top) noexcept {
+  assert(right > left && top > bottom);
+  Lens part = lens;
+  part.shift_x += lens.tan_x * (left + right - 1.0);
+  part.shift_y += lens.tan_y * (bottom + top - 1.0);
+  part.tan_x *= right - left;
+  part.tan_y *= top - bottom;
+  return part;
 }
 
 void Camera::resize(int width, int height) noexcept {

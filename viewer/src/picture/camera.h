@@ -23,12 +23,20 @@ struct Lens {
   double tan_x = 0.3;  ///< of half the field of view; of a parallel lens half the width in mm
   double tan_y = 0.2;
   bool is_parallel = false;
+  // Of a part of a picture: how far its middle lies to the right of and above the way the lens
+  // looks, as tan_x has it.
+  double shift_x = 0.0;
+  double shift_y = 0.0;
 
   friend bool operator==(const Lens&, const Lens&) = default;
 
   Matrix view() const noexcept;        ///< from mm to the camera's frame
   Matrix projection() const noexcept;  ///< from there to OpenGL's clip space
 };
+
+/// What a lens shows from `left` to `right` and from `bottom` to `top` of its picture, 0 to 1, or
+/// beyond. The planes near and far stay.
+Lens cropped(const Lens& lens, double left, double right, double bottom, double top) noexcept;
 
 /// The camera turns about a target, as in other modelling programs. z is up.
 class Camera {

@@ -21,6 +21,7 @@ using Kind = GizmoPart::Kind;
 constexpr double kRing = 0.85;
 constexpr double kArrowFrom = 0.95;
 constexpr double kArrowTo = 1.35;
+constexpr double kSizeRing = 1.5;
 constexpr double kSquareFrom = 0.3;
 constexpr double kSquareTo = 0.5;
 
@@ -30,10 +31,13 @@ constexpr double kReachPixels = 9.0;  // how near the pointer must be to a line
 constexpr double kLeastOpen = 0.12;
 constexpr double kSnapMm = 1.0;
 constexpr double kSnapDeg = 15.0;
+constexpr double kSnapFactor = 0.05;
+constexpr double kMostFactor = 100.0;
 constexpr int kRingPoints = 96;
 
 constexpr std::array<Vec3, 3> kAxes{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
 constexpr std::array<Vec3, 3> kColors{{{0.85, 0.06, 0.07}, {0.16, 0.52, 0.04}, {0.06, 0.20, 0.90}}};
+const Vec3 kSizeColor{0.75, 0.75, 0.75};
 const Vec3 kChosenColor{1.0, 0.80, 0.25};
 
 /// Two axes that are right-handed with a third.
@@ -73,6 +77,20 @@ std::vector<std::vector<Vec3>> ring_lines(const Gizmo& gizmo, std::size_t axis, 
     lines.back().push_back(ring_point(gizmo, axis, n % kRingPoints));
   }
   return lines;
+}
+
+/// The ring that scales: across the way to the eye, closed.
+std::vector<Vec3> size_ring(const Gizmo& gizmo, const Lens& lens) {
+  const Vec3 toward = to_eye(lens, gizmo.center_mm);
+  const Vec3 across = normalized(cross(lens.up, toward));
+  const Vec3 up = cross(toward, across);
+  std::vector<Vec3> points;
+  for (int n = 0; n <= kRingPoints; ++n) {
+    const double turn = 2.0 * std::numbers::pi * n / kRingPoints;
+    points.push_back(gizmo.center_mm +
+                     kSizeRing * gizmo.length_mm * (std::cos(turn) * across + std::sin(turn) * up));
+  }
+  return points;
 }
 
 std::vector<Vec3> square_corners(const Gizmo& gizmo, std::size_t axis) {
@@ -135,7 +153,10 @@ double distance_to(const Gizmo& gizmo, const GizmoPart& part, const Camera& came
     return is_on ? 0.0 : kFar;
   }
   double least = kFar;
-  for (const std::vector<Vec3>& line : ring_lines(gizmo, part.axis, lens)) {
+  const bool is_size = part.kind == Kind::size;
+  const auto lines = is_size ? std::vector<std::vector<Vec3>>{size_ring(gizmo, lens)}
+                             : ring_lines(gizmo, part.axis, lens);
+  for (const std::vector<Vec3>& line : lines) {
     for (std::size_t n = 0; n + 1 < line.size(); ++n) {
       least = std::min(
           least, pixels_from_line(pixel, camera.pixel_of(line[n]), camera.pixel_of(line[n + 1])));
@@ -154,7 +175,7 @@ Gizmo gizmo_at(const Vec3& center_mm, const Camera& camera) {
 }
 
 Box3 bounds_of(const Gizmo& gizmo) {
-  const double reach = 1.05 * kArrowTo * gizmo.length_mm;
+  const double reach = 1.05 * kSizeRing * gizmo.length_mm;
   const Vec3 half{reach, reach, reach};
   return {gizmo.center_mm - half, gizmo.center_mm + half};
 }
@@ -163,8 +184,8 @@ std::optional<GizmoPart> part_under(const Gizmo& gizmo, const Camera& camera,
                                     const Camera::Pixel& pixel) {
   std::optional<GizmoPart> best;
   double least = kReachPixels;
-  for (const Kind kind : {Kind::across, Kind::along, Kind::around}) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (const Kind kind : {Kind::across, Kind::along, Kind::around, Kind::size}) {
+    for (std::size_t axis = 0; axis < (kind == Kind::size ? 1U : 3U); ++axis) {
       const GizmoPart part{kind, axis};
       const double pixels = distance_to(gizmo, part, camera, pixel);
       if (!(pixels < least)) continue;
@@ -177,6 +198,8 @@ std::optional<GizmoPart> part_under(const Gizmo& gizmo, const Camera& camera,
 
 void add_gizmo(const Gizmo& gizmo, const Lens& lens, const std::optional<GizmoPart>& chosen,
                Picture& picture) {
+  const bool is_size = chosen && chosen->kind == Kind::size;
+  picture.handles.push_back({size_ring(gizmo, lens), is_size ? kChosenColor : kSizeColor, false});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto color_of = [&](Kind kind) {
       return chosen == GizmoPart{kind, axis} ? kChosenColor : kColors[axis];
@@ -239,7 +262,20 @@ double GizmoDrag::angle_at(const Camera::Pixel& pixel) const {
   return kDegrees * ((pixel.x - middle.x) * x + (pixel.y - middle.y) * y) / (x * x + y * y);
 }
 
+/// Pixels from the gizmo's middle.
+double GizmoDrag::from_middle(const Camera::Pixel& pixel) const {
+  const Camera::Pixel middle = camera_.pixel_of(gizmo_.center_mm);
+  return std::hypot(pixel.x - middle.x, pixel.y - middle.y);
+}
+
 Placement GizmoDrag::to(const Camera::Pixel& pixel, bool snaps) {
+  if (part_.kind == Kind::size) {
+    // The ring is some hundred pixels from the middle: never taken hold of at it.
+    const double factor = from_middle(pixel) / std::max(1.0, from_middle(start_));
+    factor_ = std::clamp(snaps ? rounded_to(factor, kSnapFactor) : factor, 1.0 / kMostFactor,
+                         kMostFactor);
+    return scaled_about(before_, gizmo_.center_mm, factor_);
+  }
   if (part_.kind != Kind::around) {
     Vec3 by = shift_to(pixel);
     if (snaps) {

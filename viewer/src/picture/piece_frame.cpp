@@ -105,6 +105,23 @@ Placement turned_about(const Placement& placement, const Vec3& point_mm, const V
           normalized(then_turned(turn, placement.orientation))};
 }
 
+Placement scaled_about(const Placement& placement, const Vec3& point_mm, double factor) noexcept {
+  return {point_mm + factor * (placement.position_mm - point_mm), placement.orientation};
+}
+
+Lens shrunk(Lens lens, double scale) noexcept {
+  assert(scale > 0.0);
+  lens.eye_mm = lens.eye_mm / scale;
+  lens.near_mm /= scale;
+  lens.far_mm /= scale;
+  if (!lens.is_parallel) return lens;
+  lens.tan_x /= scale;
+  lens.tan_y /= scale;
+  lens.shift_x /= scale;
+  lens.shift_y /= scale;
+  return lens;
+}
+
 Quat orientation_of(const Vec3& turns_deg) noexcept {
   const Quat x = turn_about({1.0, 0.0, 0.0}, turns_deg.x);
   const Quat y = turn_about({0.0, 1.0, 0.0}, turns_deg.y);

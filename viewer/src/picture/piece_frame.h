@@ -35,6 +35,12 @@ Placement moved(Placement placement, const Vec3& by_mm) noexcept;
 Placement turned_about(const Placement& placement, const Vec3& point_mm, const Vec3& axis,
                        double angle_deg) noexcept;
 
+/// Where a piece stands that became so many times as large about a point of the sculpture.
+Placement scaled_about(const Placement& placement, const Vec3& point_mm, double factor) noexcept;
+
+/// What a lens sees where all lengths are divided by `scale`, above 0: the same picture.
+Lens shrunk(Lens lens, double scale) noexcept;
+
 /// Turns about the sculpture's x, then y, then z, in degrees (Blender's XYZ), and back: x and z
 /// from -180 to 180, y from -90 to 90; where y is 90 either way, z is 0.
 Quat orientation_of(const Vec3& turns_deg) noexcept;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "argil/core/result.h"
@@ -16,6 +17,7 @@
 #include "argil/engine/render.h"
 
 #include "picture/camera.h"
+#include "picture/reference_image.h"
 
 namespace argil::viewer {
 
@@ -37,10 +39,11 @@ struct ShownPiece {
   Placement placement = {};                  ///< of its blocks; of unit length
   std::optional<Vec3> color = std::nullopt;  ///< linear; none: clay's own
   bool is_active = true;  ///< the one that is sculpted: where two have one surface it is seen
+  double scale = 1.0;     ///< lengths of its blocks times this: how large it is about to become
   friend bool operator==(const ShownPiece& a, const ShownPiece& b) {
     return a.piece == b.piece && a.placement.position_mm == b.placement.position_mm &&
            a.placement.orientation == b.placement.orientation && a.color == b.color &&
-           a.is_active == b.is_active;
+           a.is_active == b.is_active && a.scale == b.scale;
   }
 };
 
@@ -134,6 +137,10 @@ struct Picture {
   std::vector<LineMark> lines;
   std::vector<HandleMark> handles;
   std::optional<SlicePicture> slice;
+  /// Of a part of a picture: where it begins and ends between the bottom and the top of the whole,
+  /// whose background it has.
+  std::pair<double, double> ground_rows{0.0, 1.0};
+  std::vector<ReferenceMark> references;  ///< the later over the earlier
   friend bool operator==(const Picture&, const Picture&) = default;
 };
 

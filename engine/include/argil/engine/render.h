@@ -26,8 +26,8 @@ inline constexpr Vec3 kClayColor{0.50, 0.245, 0.150};
 /// What is shown of a mesh, and how. The camera stands where the whole object fills the frame, or
 /// the part of it that `frame_mm` names.
 struct RenderOptions {
-  int width = 1280;  ///< pixels, 16 to 8192
-  int height = 960;  ///< pixels, 16 to 8192
+  int width = 1280;  ///< pixels, 16 to 16384
+  int height = 960;  ///< pixels, 16 to 16384
   int samples = 4;   ///< supersampling per axis, 1 to 8: 4 means 16 rays a pixel
   /// From the object's centre toward the camera, any length but zero; not along `up`.
   Vec3 toward{0.35, -1.0, 0.45};

@@ -82,8 +82,42 @@ struct MergePiece {
   bool keeps_other = false;
 };
 
-using PieceEdit =
-    std::variant<SelectPiece, AddPiece, CopyPiece, RemovePiece, ChangePiece, MergePiece>;
+/// Several pieces get these places at once, or none does. At least one; no piece twice.
+struct PlacePieces {
+  struct Place {
+    std::string name;
+    Placement placement = {};
+  };
+  std::vector<Place> places;
+};
+
+/// A piece becomes larger or smaller, its clay with it: its voxel times `factor`, its values too,
+/// so that it keeps its detail and mask, and takes as much memory. A tool of so many mm stays one;
+/// Resample gives the former voxel again.
+struct ScalePiece {
+  std::string name;
+  /// Above 0, not 1. As large as leaves the voxel within kLeastVoxelMm to kMostVoxelMm, and all of
+  /// the clay within 1 km of its origin.
+  double factor = 1.0;
+  /// What stays where it is, in the sculpture; none: the origin of the piece's frame, which is its
+  /// place.
+  std::optional<Vec3> about_mm = std::nullopt;
+};
+
+/// A piece that is several solids apart becomes as many pieces: the largest keeps name, place in
+/// the list and history, the others stand behind it, the largest first, by its name with a number,
+/// and with its look. A cavity belongs to the solid that it is in; a solid in a cavity is one of
+/// its own. Far from the others, the clay of each keeps its bits; near them it is the distance to
+/// its own surface, as if the others had never been there.
+struct SplitPiece {
+  std::string name;
+  /// What has less of the volume of the largest than this stays with it, so that crumbs make no
+  /// pieces; 0 to 1, and 0 splits off everything.
+  double crumb_share = 0.001;
+};
+
+using PieceEdit = std::variant<SelectPiece, AddPiece, CopyPiece, RemovePiece, ChangePiece,
+                               PlacePieces, ScalePiece, SplitPiece, MergePiece>;
 
 /// A point of a piece's frame in the sculpture, and back.
 Vec3 placed(const Placement& placement, const Vec3& point_mm) noexcept;
@@ -137,11 +171,15 @@ class Sculpture {
   std::string free_name(std::string_view base) const;
 
   /// Errors  bad_input: no such piece, a name that is taken, a look out of its range, the last
-  ///         piece, a locked piece to be moved, removed or merged, or an open stroke; memory: all
-  ///         pieces together would take more than ClayLimits::memory_bytes of one; as Clay::apply
-  ///         (MergePiece) and import_mesh (AddPiece).
-  /// Cost    AddPiece of a clay and CopyPiece: a copy of its leaves. RemovePiece keeps the clay for
-  ///         undo; ClayLimits::undo_bytes bounds what is kept of removed pieces, too.
+  ///         piece, a locked piece to be moved, scaled, split, removed or merged, one solid to be
+  ///         split, or an open stroke; memory: all pieces together would take more than
+  ///         ClayLimits::memory_bytes of one; interrupted; as Clay::apply (MergePiece) and
+  ///         import_mesh (AddPiece).
+  /// Determinism  same bits for any number of threads (SculptureGolden.*).
+  /// Cost    AddPiece of a clay, CopyPiece and ScalePiece: a copy of its leaves. SplitPiece: its
+  ///         surface and 0.3 to 1 us for each node of the leaves that several solids reach.
+  ///         RemovePiece keeps the clay for undo; ClayLimits::undo_bytes bounds what is kept of
+  ///         removed pieces, too.
   Result<void> apply(const PieceEdit& edit, const Progress& progress = {});
 
   /// Takes back, or repeats, what was done last to any piece, or to their list. False where there

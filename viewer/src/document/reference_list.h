@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "argil/core/result.h"
+
+#include "picture/reference_image.h"
+
+namespace argil::viewer {
+
+// Reference images are kept beside their project, in NAME.references.txt: one a line, so that the
+// project itself, which other programs read, stays clay alone.
+
+/// Where those of a project are kept.
+std::filesystem::path references_file(const std::filesystem::path& project);
+
+struct ReferenceList {
+  std::vector<ReferenceImage> images;
+  std::vector<Error> problems;  ///< of lines and images that could not be read
+};
+
+/// Those of a project, their pixels read; none where it has no such file. An image that cannot be
+/// read stays in the list without pixels: it may be back the next time.
+ReferenceList read_references(const std::filesystem::path& project);
+
+/// Replaces the file whole; removes it where there is none to keep. Files in the project's folder
+/// are named by their place in it, so that the folder can be moved.
+/// Errors  disk.
+Result<void> write_references(const std::filesystem::path& project,
+                              const std::vector<ReferenceImage>& images);
+
+/// Another image of a file, with its pixels, as wide as `width_mm`.
+/// Errors  as io::read_png.
+Result<ReferenceImage> reference_of(const std::filesystem::path& file, StraightView view,
+                                    double width_mm);
+
+}  // namespace argil::viewer

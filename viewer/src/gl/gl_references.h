@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "argil/core/result.h"
+
+#include "gl/gl_clay.h"
+#include "gl/gl_program.h"
+#include "gl/gl_stream.h"
+#include "picture/reference_image.h"
+
+namespace argil::viewer {
+
+/// Draws reference images. Each is uploaded when a picture first shows it, and kept until pictures
+/// no longer name it.
+class GlReferences {
+ public:
+  static Result<GlReferences> make(ObjectCount& count);
+
+  /// Uploads what is new, and forgets what is not there: once a picture.
+  void take(ObjectCount& count, const std::vector<ReferenceMark>& marks);
+  /// Those behind the clay, or those over it, whatever is in front. What blends is the picture's
+  /// own colour, without a depth.
+  void draw(const std::vector<ReferenceMark>& marks, bool is_over, const EyeView& eye) const;
+
+ private:
+  struct Kept {
+    std::shared_ptr<const ReferencePixels> pixels;  ///< so that no other has its address
+    GlTexture texture;
+  };
+  GlProgram program_;
+  GlStream stream_;
+  std::map<const ReferencePixels*, Kept> textures_;
+};
+
+}  // namespace argil::viewer
