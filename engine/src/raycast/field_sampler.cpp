@@ -66,7 +66,7 @@ void FieldSampler::State::find(const Vec3& point_mm) {
   const Coord low = finest >> level;
   if (scale == 0.0 || level != cell.level || low != node) {
     node = low;
-    scale = std::ldexp(1.0, -level);
+    scale = 1.0 / (1 << level);
     cell.corners = octants.corners(level, low);
     cell.level = level;
     cell.per_mm = scale * per_mm;

@@ -9,7 +9,6 @@
 #include "argil/engine/field_sampler.h"
 #include "argil/mesh/decimate.h"
 
-#include "compare/block_slopes.h"
 #include "compare/cell_sheets.h"
 #include "compare/extracted_surface.h"
 #include "compare/sampler_pool.h"
@@ -22,12 +21,7 @@ namespace argil::io {
 /// phi = 0, which is trilinear, and no point of a box lies farther than its middle and half its
 /// diagonal. What that does not settle is cut in eight.
 ///
-/// The mesh to the field, triangle by triangle, in pieces of some voxels: along a way from the
-/// middle phi is no farther from its linear continuation than its slopes in the cells there are
-/// from that at the middle. Where levels meet phi may jump: there its difference from the linear
-/// continuation is greatest and least at corners of the parts of cells in a box around the piece,
-/// since both are linear along each axis.
-/// What that does not settle is cut in four.
+/// The mesh to the field, triangle by triangle: TriangleQuestion.
 class BlockProof final : public mesh::BoundProof {
  public:
   /// What of phi = 0 is provably of components that were left out of the surface does not count
@@ -44,6 +38,7 @@ class BlockProof final : public mesh::BoundProof {
     return sheets_->others_in(cell);
   }
   bool is_near(std::uint32_t cell, mesh::NearTriangles& mesh) const override;
+  bool is_near_at_once(std::uint32_t cell, mesh::NearTriangles& mesh) const override;
   void ask_triangles(std::span<const mesh::Corners> triangles,
                      std::span<std::uint8_t> is_near) const override;
 
@@ -55,7 +50,6 @@ class BlockProof final : public mesh::BoundProof {
   double bound_mm_;
   double voxel_mm_;
   mutable SamplerPool samplers_;
-  mutable BlockSlopes slopes_;
 };
 
 }  // namespace argil::io

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 
 #include "argil/core/vec3.h"
 
@@ -53,7 +56,8 @@ bool has_one_sheet(const SurfaceCell& cell) {
 /// Finds the sheets of one cell after another.
 class SheetSearch {
  public:
-  SheetSearch(const TriangleMesh& surface, const TriangleRuns& runs, double voxel_mm)
+  /// `runs` of the surface; null where all cells have all vertices.
+  SheetSearch(const TriangleMesh& surface, const TriangleRuns* runs, double voxel_mm)
       : surface_(surface), runs_(runs), voxel_mm_(voxel_mm) {}
 
   /// A vertex of each sheet that the cell's triangles are of or that passes through an edge of it,
@@ -64,11 +68,12 @@ class SheetSearch {
     meet(cell.first);
     for (std::uint32_t t = cell.first + 1; t < cell.first + cell.count; ++t) add(t);
     if (has_all_vertices(cell, surface_)) return others_;
+    assert(runs_ != nullptr);
     const Vec3 low = cell.low_mm(voxel_mm_);
     const double side = cell.side_mm(voxel_mm_);
     for_each_cut_edge(cell, [&](const LatticeEdge&, const Vec3& place) {
       constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-      add(runs_.closest(low + side * place, {kAnywhere, kNoTriangle}).triangle);
+      add(runs_->closest(low + side * place, {kAnywhere, kNoTriangle}).triangle);
     });
     return others_;
   }
@@ -88,7 +93,7 @@ class SheetSearch {
   }
 
   const TriangleMesh& surface_;
-  const TriangleRuns& runs_;
+  const TriangleRuns* runs_;
   double voxel_mm_;
   std::vector<std::uint32_t> met_;
   std::vector<std::uint32_t> others_;
@@ -98,21 +103,30 @@ class SheetSearch {
 
 CellSheets::CellSheets(const TriangleMesh& surface, const std::vector<SurfaceCell>& cells,
                        double voxel_mm, const Pace& pace) {
-  const TriangleRuns runs(surface);
+  // Mostly none lacks a vertex: then nothing is searched.
+  std::atomic<bool> lacks_any = false;
+  std::vector<std::vector<std::uint32_t>> candidates(block_count(cells.size()));
+  in_blocks(cells.size(), pace.part(0.0, 0.3), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      if (has_one_sheet(cells[c])) continue;
+      candidates[begin / kDistanceBlock].push_back(static_cast<std::uint32_t>(c));
+      if (!has_all_vertices(cells[c], surface)) lacks_any = true;
+    }
+  });
+  std::optional<TriangleRuns> runs;
+  if (lacks_any) runs.emplace(surface, pace.part(0.3, 0.5));
   struct Found {
     std::vector<Sheets> sheets;
     std::vector<std::uint32_t> vertices;
   };
-  std::vector<Found> blocks(block_count(cells.size()));
-  in_blocks(cells.size(), pace, [&](std::size_t begin, std::size_t end) {
-    SheetSearch search(surface, runs, voxel_mm);
+  std::vector<Found> blocks(candidates.size());
+  in_blocks(cells.size(), pace.part(0.5, 1.0), [&](std::size_t begin, std::size_t) {
+    SheetSearch search(surface, runs ? &*runs : nullptr, voxel_mm);
     Found& found = blocks[begin / kDistanceBlock];
-    for (std::size_t c = begin; c < end; ++c) {
-      if (has_one_sheet(cells[c])) continue;
+    for (const std::uint32_t c : candidates[begin / kDistanceBlock]) {
       const std::vector<std::uint32_t>& others = search.others_in(cells[c]);
       if (others.empty()) continue;
-      found.sheets.push_back(
-          {static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(found.vertices.size())});
+      found.sheets.push_back({c, static_cast<std::uint32_t>(found.vertices.size())});
       found.vertices.insert(found.vertices.end(), others.begin(), others.end());
     }
   });

@@ -33,11 +33,13 @@ FieldToMesh::FieldToMesh(const TriangleMesh& mesh, ExtractedSurface& surface)
       extracted_(surface),
       surface_(surface.mesh()),
       is_surface_(mesh.triangles == surface.mesh().triangles),
-      voxel_mm_(surface.voxel_mm()) {
+      voxel_mm_(surface.voxel_mm()) {}
+
+void FieldToMesh::find_nearest(const Pace& pace) {
   if (is_surface_) {
-    runs_.emplace(mesh);
+    runs_.emplace(mesh_, pace);
   } else {
-    nearest_.emplace(mesh.positions, mesh.triangles);
+    nearest_.emplace(mesh_.positions, mesh_.triangles);
   }
 }
 
@@ -267,7 +269,8 @@ double FieldToMesh::refined(const Cell& cell, const Vec3& low, double side, doub
 }
 
 mesh::DistanceSummary FieldToMesh::measure(const Pace& pace) {
-  extracted_.prepare(pace.part(0.0, 0.2));
+  extracted_.prepare(pace.part(0.0, 0.15));
+  find_nearest(pace.part(0.15, 0.2));
   measure_vertices(pace.part(0.2, 0.4));
   const DistanceSums found_first = measure_cells(pace.part(0.4, 0.75));
   mesh::DistanceSummary summary = found_first.summary();

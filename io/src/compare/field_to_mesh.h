@@ -57,6 +57,7 @@ class FieldToMesh {
   Sample sample_at(const Vec3& at, const Cell& cell, std::uint32_t hint, double enough) const;
   bool is_left_out(const Vec3& fraction, const Cell& cell) const;
   Sample sample_at_vertex(std::uint32_t v, std::uint32_t hint, FieldSampler& field) const;
+  void find_nearest(const Pace& pace);
   void measure_vertices(const Pace& pace);
   DistanceSums measure_cells(const Pace& pace);
   void add_cell(const Cell& cell, std::size_t turn, std::uint32_t& hint, DistanceSums& sums) const;

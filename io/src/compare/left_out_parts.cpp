@@ -34,24 +34,27 @@ int box_before(double fraction) {
 }  // namespace
 
 /// The edges, of all levels, that vertices of what was left out lie on and none that is kept does.
+/// Where finer cells cut an edge in parts, phi = 0 may pass through several of these. Between ends
+/// of different signs that is an odd number: where an even number of them is of what was left out,
+/// one that is kept must be among the others, though its vertex was moved off the edge.
 class LeftOutParts::Edges {
  public:
   Edges(const TriangleMesh& surface, const TriangleMesh& left_out, std::int8_t coarsest,
         double voxel_mm, const Pace& pace);
 
-  /// The vertex of what was left out that lies on the edge; nothing where none does.
-  std::optional<std::uint32_t> vertex_on(const LatticeEdge& edge) const {
+  struct Cut {
+    LatticeEdge edge;
+    std::uint32_t vertex = 0;  ///< of what was left out, the first on the edge
+    bool has_kept = false;     ///< something that is kept passes through it as well
+  };
+
+  /// Null where no vertex of what was left out lies on the edge.
+  const Cut* on(const LatticeEdge& edge) const {
     const std::size_t place = place_of(edge);
-    if (place == edges_.size()) return std::nullopt;
-    return edges_[place].vertex;
+    return place == edges_.size() ? nullptr : &edges_[place];
   }
 
  private:
-  struct Cut {
-    LatticeEdge edge;
-    std::uint32_t vertex = 0;
-  };
-
   std::size_t place_of(const LatticeEdge& edge) const {
     const auto found =
         std::lower_bound(edges_.begin(), edges_.end(), edge,
@@ -59,6 +62,7 @@ class LeftOutParts::Edges {
     if (found == edges_.end() || found->edge != edge) return edges_.size();
     return static_cast<std::size_t>(found - edges_.begin());
   }
+  void join_parts();
   void forget_kept(const TriangleMesh& surface, std::int8_t coarsest, double voxel_mm,
                    const Pace& pace);
 
@@ -75,11 +79,22 @@ LeftOutParts::Edges::Edges(const TriangleMesh& surface, const TriangleMesh& left
       if (edge) edges_.push_back({*edge, v});
     }
   }
-  const auto is_same = [](const Cut& a, const Cut& b) { return a.edge == b.edge; };
   std::stable_sort(edges_.begin(), edges_.end(),
                    [](const Cut& a, const Cut& b) { return a.edge < b.edge; });
-  edges_.erase(std::unique(edges_.begin(), edges_.end(), is_same), edges_.end());
+  join_parts();
   forget_kept(surface, coarsest, voxel_mm, pace);
+}
+
+/// Of an edge that several vertices lie on one Cut stays, with the first of them.
+void LeftOutParts::Edges::join_parts() {
+  std::size_t count = 0;
+  for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
+    while (end < edges_.size() && edges_[end].edge == edges_[begin].edge) ++end;
+    Cut joined = edges_[begin];
+    joined.has_kept = (end - begin) % 2 == 0;
+    edges_[count++] = joined;
+  }
+  edges_.resize(count);
 }
 
 /// Of an edge that finer cells cut in parts, some may have a vertex that is kept.
@@ -216,11 +231,13 @@ LeftOutParts::Mixed LeftOutParts::mixed_in(const SurfaceCell& cell, const Edges&
   std::size_t count_out = 0;
   std::size_t count_kept = 0;
   for_each_cut_edge(cell, [&](const LatticeEdge& edge, const Vec3& p) {
-    if (const std::optional<std::uint32_t> vertex = left_out.vertex_on(edge)) {
-      out[count_out++] = {p, *vertex};
-    } else {
-      kept[count_kept++] = p;
+    const Edges::Cut* const cut = left_out.on(edge);
+    if (cut != nullptr && !cut->has_kept) {
+      out[count_out++] = {p, cut->vertex};
+      return;
     }
+    if (cut != nullptr) ambiguous.push_back(cut->vertex);
+    kept[count_kept++] = p;
   });
   Mixed mixed;
   if (count_out == 0) return mixed;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "argil/core/closest_on_triangle.h"
 #include "argil/mesh/triangle_geometry.h"
+
+#include "compare/distance_sums.h"
 
 namespace argil::io {
 namespace {
@@ -22,12 +25,15 @@ double distance_from(const Box3& box, const Vec3& at) noexcept {
 
 }  // namespace
 
-TriangleRuns::TriangleRuns(const TriangleMesh& mesh) : mesh_(mesh) {
+TriangleRuns::TriangleRuns(const TriangleMesh& mesh, const Pace& pace) : mesh_(mesh) {
+  static_assert(kDistanceBlock % kRun == 0, "no box is of two blocks");
   const std::size_t count = mesh.triangles.size();
   std::vector<Box3> boxes((count + kRun - 1) / kRun);
-  for (std::size_t t = 0; t < count; ++t) {
-    for (const std::uint32_t v : mesh.triangles[t]) boxes[t / kRun].include(mesh.positions[v]);
-  }
+  in_blocks(count, pace, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (const std::uint32_t v : mesh.triangles[t]) boxes[t / kRun].include(mesh.positions[v]);
+    }
+  });
   levels_.push_back(std::move(boxes));
   while (levels_.back().size() > 1) {
     const std::vector<Box3>& below = levels_.back();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/core/vec3.h"
 #include "argil/engine/mesh_distance.h"
@@ -26,8 +27,8 @@ class TriangleRuns {
     std::uint32_t triangle = kNoTriangle;
   };
 
-  /// Refers to the mesh, which must stay as it is.
-  explicit TriangleRuns(const TriangleMesh& mesh);
+  /// Refers to the mesh, which must stay as it is. Throws Interrupted.
+  TriangleRuns(const TriangleMesh& mesh, const Pace& pace);
 
   /// The closest triangle if it is nearer to `at` than `known`, which is given back where none is.
   Closest closest(const Vec3& at, Closest known) const;

@@ -25,6 +25,7 @@
 
 #include "compare/extracted_surface.h"
 #include "compare/field_error.h"
+#include "compare/surface_near.h"
 #include "convert/decimate_extracted.h"
 #include "file/file_bytes.h"
 #include "mesh_format/mesh_write.h"
@@ -92,15 +93,26 @@ Result<void> Export::extract() {
 }
 
 /// Where the field does not tell a component that was left out from what is beside it nothing could
-/// be proven: it stays.
+/// be proven: it stays. What was told from all but these may then not be told from them: what is
+/// near is looked at again until nothing changes, and all of the surface at last.
 void Export::keep_ambiguous(const Pace& pace) {
-  for (double done = 0.0; left_out_.count > 0; done += 0.5 * (1.0 - done)) {
-    extracted_->prepare(pace.part(done, 0.5 * (1.0 + done)));
-    const std::span<const std::uint32_t> ambiguous = extracted_->ambiguous();
-    if (ambiguous.empty()) return;
-    mesh::put_back(surface_, left_out_, ambiguous);
-    // What was told from all but these may now not be told from them.
+  const auto put_back_from = [this](ExtractedSurface& extracted, const Pace& part) {
+    extracted.prepare(part);
+    const std::span<const std::uint32_t> ambiguous = extracted.ambiguous();
+    if (!ambiguous.empty()) mesh::put_back(surface_, left_out_, ambiguous);
+    return !ambiguous.empty();
+  };
+  const auto put_back_near = [&] {
+    const Pace unknown = pace.part(0.0, 0.0);
+    const TriangleMesh near = surface_near(surface_, left_out_.mesh, clay_, unknown);
+    ExtractedSurface around(near, clay_, left_out_.mesh);
+    return put_back_from(around, unknown);
+  };
+  for (;;) {
+    while (left_out_.count > 0 && put_back_near()) {
+    }
     extracted_.emplace(surface_, clay_, left_out_.mesh);
+    if (left_out_.count == 0 || !put_back_from(*extracted_, pace)) return;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -50,6 +51,11 @@ class ZipWriter {
   /// Goes on with `bytes` that were deflated elsewhere, with their CRC-32: blocks that refer to
   /// nothing before them, end at a byte, and are not the last.
   void write_deflated(std::string_view packed, std::size_t bytes, std::uint32_t crc);
+  /// Of the entry that was begun last, before it is deflated.
+  std::uint64_t entry_bytes() const noexcept {
+    assert(!entries_.empty());
+    return entries_.back().bytes;
+  }
   /// Errors  bad_input when the entry is 4 GB or more, which needs an extension not written here.
   Result<void> end();
   /// Writes the directory; the archive is complete.

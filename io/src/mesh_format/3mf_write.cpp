@@ -34,13 +34,20 @@ constexpr std::string_view kRelationships =
 </Relationships>
 )";
 
+Error too_much_text(const std::string& bytes, std::uint64_t most) {
+  return {ErrorKind::bad_input,
+          "the mesh is too large for a 3MF: " + bytes + " bytes of text, which must be less than " +
+              std::to_string(most) + "; write .stl or .ply, or remove triangles"};
+}
+
 /// The model as XML: a group of colors, where there are any, the meshes, the objects of components
 /// and the build. Numbers of objects go on from one to the next.
 class ModelWriter {
  public:
-  /// `chunks` go to `zip`; without one all goes through them.
-  ModelWriter(Chunks& chunks, ZipWriter* zip, const ThreemfModel& model)
-      : chunks_(chunks), zip_(zip), model_(model) {}
+  /// `chunks` go to `zip`; without one all goes through them. Stops where `zip` has `most` bytes of
+  /// text.
+  ModelWriter(Chunks& chunks, ZipWriter* zip, const ThreemfModel& model, std::uint64_t most)
+      : chunks_(chunks), zip_(zip), model_(model), most_(most) {}
 
   Result<void> write();
 
@@ -60,6 +67,7 @@ class ModelWriter {
   Chunks& chunks_;
   ZipWriter* zip_;
   const ThreemfModel& model_;
+  std::uint64_t most_;
   std::map<Srgb, std::size_t> colors_;  ///< the place of each in its group
   std::size_t last_id_ = 0;
   std::size_t first_object_ = 0;
@@ -123,10 +131,12 @@ Result<void> ModelWriter::write_records(const Items& items, const One& one) {
   };
   const auto use = [&](const ItemRange& range, const DeflatedPiece& piece) {
     zip_->write_deflated(piece.packed, piece.text.all().size(), piece.crc);
-    return chunks_.step_past(range.end - range.begin);
+    return zip_->entry_bytes() < most_ && chunks_.step_past(range.end - range.begin);
   };
-  if (!make_in_order<DeflatedPiece>(items.size(), make, use)) return writing_stopped();
-  return {};
+  if (make_in_order<DeflatedPiece>(items.size(), make, use)) return {};
+  const std::uint64_t bytes = zip_->entry_bytes();
+  if (bytes < most_) return writing_stopped();
+  return too_much_text(std::to_string(bytes) + " and more", most_);
 }
 
 Result<void> ModelWriter::write_mesh(const ThreemfObject& object) {
@@ -247,27 +257,25 @@ Result<void> check_3mf_size(const ThreemfModel& model, const Progress& progress,
     return !progress || progress(stage, 0.0);
   };
   Chunks chunks([&](std::string_view text) { bytes += text.size(); }, not_begun, steps_of(model));
-  const Result<void> counted = ModelWriter(chunks, nullptr, model).write();
+  const Result<void> counted = ModelWriter(chunks, nullptr, model, most).write();
   if (!counted) return counted;
   chunks.flush();
   if (bytes < most) return {};
-  return Error{ErrorKind::bad_input, "the mesh is too large for a 3MF: " + std::to_string(bytes) +
-                                         " bytes of text, which must be less than " +
-                                         std::to_string(most) +
-                                         "; write .stl or .ply, or remove triangles"};
+  return too_much_text(std::to_string(bytes), most);
 }
 
-Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress) {
-  if (Result<void> fits = check_3mf_size(model, progress); !fits) return fits;
+Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress,
+                       std::uint64_t most) {
   ZipWriter zip(out);
   Result<void> written = write_entry(zip, "[Content_Types].xml", kContentTypes);
   if (written) written = write_entry(zip, "_rels/.rels", kRelationships);
   if (!written) return written;
   zip.begin("3D/3dmodel.model");
   Chunks chunks([&](std::string_view data) { zip.write(data); }, progress, steps_of(model));
-  written = ModelWriter(chunks, &zip, model).write();
+  written = ModelWriter(chunks, &zip, model, most).write();
   if (!written) return written;
   chunks.flush();
+  if (zip.entry_bytes() >= most) return too_much_text(std::to_string(zip.entry_bytes()), most);
   written = zip.end();
   zip.finish();
   return written;

@@ -42,8 +42,9 @@ inline constexpr std::uint64_t kMost3mfText = 0xffffffff;
 Result<void> check_3mf_size(const ThreemfModel& model, const Progress& progress,
                             std::uint64_t most = kMost3mfText);
 
-/// As the writers of chunks.h, after check_3mf_size: what does not fit is refused before anything
-/// is written.
-Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress);
+/// As the writers of chunks.h. The text is made once: a model of `most` bytes of it or more is
+/// refused where it comes to that many, with a part in `out` (check_3mf_size knows before).
+Result<void> write_3mf(OutputFile& out, const ThreemfModel& model, const Progress& progress,
+                       std::uint64_t most = kMost3mfText);
 
 }  // namespace argil::io

@@ -80,18 +80,23 @@ VertexBlock with_neighbours(const CollapseMesh& mesh, const VertexBlock& vertice
 }  // namespace
 
 BoundKeeper::BoundKeeper(CollapseState& state, const TriangleMesh& surface,
+                         const std::vector<std::uint32_t>& vertex_for,
                          const DecimationTarget& target, const BoundProof& proof,
                          ThreadProbes& probes)
     : state_(state),
       surface_(surface),
+      vertex_for_(vertex_for),
       target_(target),
       proof_(proof),
       probes_(probes),
       cells_(proof.cells()),
-      is_triangle_proven_(surface.triangles.size(), 0),
+      is_triangle_proven_(state.mesh.half_edges() / 3, 0),
       before_(state.mesh),
       quadrics_before_(state.quadrics) {
-  for (std::uint32_t c = 0; c < cells_.size(); ++c) cells_[c].near = proof.vertex_of(c);
+  assert(vertex_for.size() == surface.positions.size());
+  for (std::uint32_t c = 0; c < cells_.size(); ++c) {
+    cells_[c].near = vertex_for[proof.vertex_of(c)];
+  }
 }
 
 Balls BoundKeeper::balls_around(const Faults& faults, double radius_mm) {
@@ -129,7 +134,7 @@ void BoundKeeper::fit(const Pace& pace) {
 void BoundKeeper::begin_near(std::uint32_t vertex, std::uint32_t cell, SheetWalks& walks) const {
   walks.begin(walks.mesh().became(vertex));
   for (const std::uint32_t other : proof_.other_vertices_of(cell)) {
-    walks.begin_also(walks.mesh().became(other));
+    walks.begin_also(walks.mesh().became(vertex_for_[other]));
   }
 }
 
@@ -139,7 +144,9 @@ void BoundKeeper::rely_on(const SheetWalks& walks, Cell& cell) const {
   cell.relied.fill(kNothing);
   std::size_t count = 0;
   for (const TriangleWalk& walk : walks.walks()) {
-    for (const HalfEdge h : walk.relied_on()) {
+    for (const HalfEdge on : walk.relied_on()) {
+      // One half-edge of each triangle, whichever the walk came by.
+      const auto h = static_cast<HalfEdge>(3 * triangle_of(on));
       if (std::find(cell.relied.begin(), cell.relied.end(), h) != cell.relied.end()) continue;
       if (count == cell.relied.size()) {
         cell.relied.back() = kMany;
@@ -150,12 +157,15 @@ void BoundKeeper::rely_on(const SheetWalks& walks, Cell& cell) const {
   }
 }
 
-/// Looks from where it was found last, and where that fails from what became of its own surface.
+/// Looks at the triangle that the cell before was near, then from where it was found last, and
+/// where that fails from what became of its own surface.
 void BoundKeeper::prove_cell(std::uint32_t c, SheetWalks& walks, Faults& faults) {
   Cell& cell = cells_[c];
   const CollapseMesh& mesh = state_.mesh;
-  const std::uint32_t vertex = proof_.vertex_of(c);
-  cell.is_proven = false;
+  const std::uint32_t vertex = vertex_for_[proof_.vertex_of(c)];
+  cell.is_proven =
+      proof_.other_vertices_of(c).empty() && walks.go_on() && proof_.is_near_at_once(c, walks);
+  if (cell.is_proven) return rely_on(walks, cell);
   for (const std::uint32_t from : {cell.near, vertex}) {
     begin_near(from, c, walks);
     cell.is_proven = proof_.is_near(c, walks);
@@ -163,7 +173,7 @@ void BoundKeeper::prove_cell(std::uint32_t c, SheetWalks& walks, Faults& faults)
   }
   const auto [u, v, w] = vertices_of(mesh, walks.walks().front().triangle());
   const std::uint32_t last = mesh.from(walks.walks().back().triangle());
-  faults.push_back({surface_.positions[vertex],
+  faults.push_back({surface_.positions[proof_.vertex_of(c)],
                     {u, v, w, mesh.became(vertex), mesh.became(cell.near), last},
                     c});
 }
@@ -262,7 +272,7 @@ bool BoundKeeper::is_as_before(HalfEdge triangle) const {
 bool BoundKeeper::was_there_before(const Fault& fault) const {
   if (fault.cell != kNothing) {
     SheetWalks walks(before_);
-    begin_near(proof_.vertex_of(fault.cell), fault.cell, walks);
+    begin_near(vertex_for_[proof_.vertex_of(fault.cell)], fault.cell, walks);
     return !proof_.is_near(fault.cell, walks);
   }
   return is_as_before(fault.triangles[0]) && is_as_before(fault.triangles[1]);

@@ -26,9 +26,11 @@ namespace argil::mesh {
 /// Determinism  same bits for any number of threads.
 class BoundKeeper {
  public:
-  /// The surface as it is now is what steps go back to. Positions of `surface` are floats; all must
-  /// outlive this.
-  BoundKeeper(CollapseState& state, const TriangleMesh& surface, const DecimationTarget& target,
+  /// The surface as it is now is what steps go back to; `vertex_for` has which of its vertices each
+  /// one of `surface`, that the proof was made for, has become. Positions of `surface` are floats;
+  /// all must outlive this.
+  BoundKeeper(CollapseState& state, const TriangleMesh& surface,
+              const std::vector<std::uint32_t>& vertex_for, const DecimationTarget& target,
               const BoundProof& proof, ThreadProbes& probes);
 
   /// Fits what has moved, proves all that is not proven, and takes back what fails; steps that are
@@ -84,11 +86,12 @@ class BoundKeeper {
 
   CollapseState& state_;
   const TriangleMesh& surface_;
+  const std::vector<std::uint32_t>& vertex_for_;
   const DecimationTarget& target_;
   const BoundProof& proof_;
   ThreadProbes& probes_;
   std::vector<Cell> cells_;
-  std::vector<std::uint8_t> is_triangle_proven_;  ///< by its number in the surface
+  std::vector<std::uint8_t> is_triangle_proven_;  ///< by its number in the state
   const CollapseMesh before_;
   const std::vector<Quadric> quadrics_before_;
   std::vector<Vec3> unfitted_;       ///< of each vertex

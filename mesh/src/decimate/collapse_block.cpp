@@ -35,6 +35,7 @@ CollapseState::CollapseState(CollapseMesh made, const Box3& box, double voxel_mm
       refusals(mesh.half_edges(), 0),
       stays(mesh.vertices(), 0),
       moved(mesh.vertices(), 0),
+      last_step(mesh.vertices(), 0),
       caution(mesh.vertices(), 0) {
   assert(voxel_mm > 0.0);
   // Draws a vertex on a plane to the middle of its matter, a thousandth as firmly as off the plane.
@@ -62,6 +63,30 @@ CollapseState::CollapseState(CollapseMesh made, const Box3& box, double voxel_mm
   last_wait = CostQueue::class_for(dot(size, size) * dot(size, size));
 }
 
+std::vector<std::uint32_t> CollapseState::compact() {
+  std::vector<std::uint32_t> number;
+  CollapseMesh left = mesh.compacted(number);
+  std::vector<Quadric> quadrics_left;
+  std::vector<std::uint8_t> moved_left;
+  quadrics_left.reserve(left.vertices());
+  moved_left.reserve(left.vertices());
+  for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+    if (mesh.any_from(v) == CollapseMesh::kGone) continue;
+    quadrics_left.push_back(quadrics[v]);
+    moved_left.push_back(moved[v]);
+  }
+  mesh = std::move(left);
+  quadrics = std::move(quadrics_left);
+  class_of = std::vector<std::uint16_t>(mesh.half_edges(), CostQueue::kNone);
+  refusals = std::vector<std::uint8_t>(mesh.half_edges(), 0);
+  stays = std::vector<std::uint8_t>(mesh.vertices(), 0);
+  moved = std::move(moved_left);
+  caution = stays;
+  last_step = std::vector<std::uint32_t>(mesh.vertices(), 0);
+  assert(quadrics.size() == mesh.vertices());
+  return number;
+}
+
 CollapseBlock::CollapseBlock(CollapseState& state, const VertexBlock& vertices,
                              const CollapseRules& rules)
     : state_(state),
@@ -69,6 +94,7 @@ CollapseBlock::CollapseBlock(CollapseState& state, const VertexBlock& vertices,
       vertices_left_(vertices.size()),
       rules_(rules),
       queue_(state.class_of) {
+  for (const std::uint32_t v : vertices) state_.last_step[v] = 0;
   put_all(vertices);
 }
 
@@ -101,7 +127,7 @@ CollapseBlock::Step CollapseBlock::step_for(HalfEdge edge) const {
   const Vec3 pa = mesh_.position(a) - state_.centre;
   const Vec3 pb = mesh_.position(b) - state_.centre;
   const Vec3 middle = 0.5 * (pa + pb);
-  Step step{edge, middle, q.at(middle)};
+  Step step{edge, middle, 0.0};
   const std::optional<Vec3> least = q.least();
   // A far optimum belongs to planes that are nearly one.
   if (least && dot(*least - middle, *least - middle) <= 4.0 * dot(pb - pa, pb - pa)) {
@@ -109,6 +135,7 @@ CollapseBlock::Step CollapseBlock::step_for(HalfEdge edge) const {
     step.cost = q.at(*least);
   } else {
     // No least point, or a far one: the best of the middle and the ends.
+    step.cost = q.at(middle);
     for (const Vec3& end : {pa, pb}) {
       if (const double cost = q.at(end); cost < step.cost) step = {edge, end, cost};
     }
@@ -188,10 +215,19 @@ std::optional<double> CollapseBlock::field_cost(const Step& step) {
   const Vec3& position = step.position;
   double reach_mm = rules_.reach_mm;
   for (int taken_back = caution_at(step.edge); taken_back > 0; --taken_back) reach_mm *= kCautious;
-  double squares = 0.0;
   const FieldValue at_position = field_->value(position);
   const double step_mm = kStepVoxels * at_position.voxel_mm;
   double worst = std::abs(at_position.distance_mm);
+  if (is_bounded()) {
+    // Samples lie inside the triangles; with a bound the middle of each new edge counts too, and
+    // before them: few tell most of the steps that go too far.
+    if (worst > reach_mm) return std::nullopt;
+    for (const StarTriangle& t : star_) {
+      worst = std::max(worst, std::abs(field_->distance_mm(0.5 * (position + t.right))));
+      if (worst > reach_mm) return std::nullopt;
+    }
+  }
+  double squares = 0.0;
   double area = 0.0;
   for (const StarTriangle& t : star_) {
     // At most 25 or 256 samples a triangle: the cost of a step must not grow with its size.
@@ -203,11 +239,7 @@ std::optional<double> CollapseBlock::field_cost(const Step& step) {
       worst = std::max(worst, std::abs(d));
     });
     area += part * n * n;
-    if (is_bounded()) {
-      // Samples lie inside the triangles; with a bound the middle of each new edge counts too.
-      worst = std::max(worst, std::abs(field_->distance_mm(0.5 * (position + t.right))));
-      if (worst > reach_mm) return std::nullopt;
-    }
+    if (is_bounded() && worst > reach_mm) return std::nullopt;
   }
   // A single peak costs as if a quarter of the star stood off so far.
   return std::max(squares, 0.25 * area * worst * worst);
@@ -216,9 +248,29 @@ std::optional<double> CollapseBlock::field_cost(const Step& step) {
 bool CollapseBlock::has_cost(const Step& step) {
   const std::optional<double> cost = field_cost(step);
   if (!cost) return false;
-  if (CostQueue::class_for(*cost) <= queue_.now()) return true;
-  queue_.put(step.edge, CostQueue::class_for(*cost));
+  const std::uint16_t cost_class = CostQueue::class_for(*cost);
+  if (cost_class <= queue_.now()) return true;
+  queue_.put(step.edge, cost_class);
+  asked_[step.edge] = {cost_class, steps_};
   return false;
+}
+
+/// Whether the field was asked before, it costs no more than the present class, and no vertex
+/// around has moved since: then the step has its shape and its reach too.
+bool CollapseBlock::has_cost_still(HalfEdge edge) {
+  const auto asked = asked_.find(edge);
+  if (asked == asked_.end()) return false;
+  const auto [cost_class, after_step] = asked->second;
+  asked_.erase(asked);
+  if (cost_class > queue_.now()) return false;
+  for (const HalfEdge end : {edge, mesh_.twin(edge)}) {
+    HalfEdge h = end;
+    do {
+      if (state_.last_step[mesh_.to(h)] > after_step) return false;
+      h = mesh_.next_around(h);
+    } while (h != end);
+  }
+  return true;
 }
 
 /// Whether the step keeps the surface whole, its shape and its reach, and costs no more than the
@@ -226,6 +278,7 @@ bool CollapseBlock::has_cost(const Step& step) {
 bool CollapseBlock::is_allowed(const Step& step) {
   // The cheapest test first.
   if (!mesh_.can_collapse(step.edge, ring_)) return false;
+  if (has_cost_still(step.edge)) return true;
   gather_star(step.edge);
   if (!keeps_shape(step)) return false;
   const bool asks = queue_.now() >= rules_.first_asking || caution_at(step.edge) > 0;
@@ -275,6 +328,7 @@ void CollapseBlock::apply(const Step& step) {
   }
   mesh_.collapse(step.edge, step.position);
   state_.moved[stays] = 1;
+  state_.last_step[stays] = ++steps_;
   --vertices_left_;
   const HalfEdge first = mesh_.any_from(stays);
   HalfEdge h = first;

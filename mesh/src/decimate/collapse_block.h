@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "argil/core/distance_probe.h"
@@ -24,6 +25,11 @@ struct CollapseState {
   /// Quadrics of the triangles around each vertex. `voxel_mm` of the field, greater than 0.
   CollapseState(CollapseMesh made, const Box3& box, double voxel_mm);
 
+  /// Forgets all that is gone, when no block is at work: what looks at everything from then on
+  /// takes as long as what is left. Vertices and half-edges get new numbers in the old order, with
+  /// no mark but `moved`; returns that of what each vertex has become.
+  std::vector<std::uint32_t> compact();
+
   CollapseMesh mesh;
   Vec3 centre;  ///< quadrics are about it
   std::vector<Quadric> quadrics;
@@ -31,6 +37,8 @@ struct CollapseState {
   std::vector<std::uint8_t> refusals;   ///< of each edge
   std::vector<std::uint8_t> stays;      ///< of each vertex: neither goes nor moves
   std::vector<std::uint8_t> moved;      ///< of each vertex: by a step since this was last made 0
+  std::vector<std::uint32_t>
+      last_step;  ///< of each vertex: which of its block's steps moved it last
   /// Of each vertex: how often steps here were taken back, or kStays, after which there are none.
   std::vector<std::uint8_t> caution;
   static constexpr std::uint8_t kStays = 4;
@@ -77,6 +85,11 @@ class CollapseBlock {
     Vec3 position;
     double cost = 0.0;
   };
+  /// What the field was found to make of a step that waits for its turn.
+  struct Asked {
+    std::uint16_t cost_class = 0;
+    std::uint32_t after_step = 0;  ///< of the block
+  };
 
   bool is_bounded() const noexcept { return rules_.reach_mm > 0.0; }
   void put_all(const VertexBlock& vertices);
@@ -90,6 +103,7 @@ class CollapseBlock {
   int caution_at(HalfEdge edge) const noexcept;
   std::optional<double> field_cost(const Step& step);
   bool has_cost(const Step& step);
+  bool has_cost_still(HalfEdge edge);
   void refuse(HalfEdge edge);
   bool try_step(HalfEdge edge);
   template <class GoesOn>
@@ -103,6 +117,8 @@ class CollapseBlock {
   DistanceProbe* field_ = nullptr;  ///< while it advances
   CollapseRules rules_;
   CostQueue queue_;
+  std::unordered_map<HalfEdge, Asked> asked_;
+  std::uint32_t steps_ = 0;
   std::vector<StarTriangle> star_;
   std::vector<std::uint32_t> ring_;
 };

@@ -68,9 +68,6 @@ bool CollapseMesh::has_three_triangles(std::uint32_t v) const noexcept {
 bool CollapseMesh::can_collapse(HalfEdge h, std::vector<std::uint32_t>& ring) const {
   assert(!is_gone(h));
   const HalfEdge back = twin_[h];
-  const std::uint32_t third = from_[next_in_triangle(next_in_triangle(h))];
-  const std::uint32_t fourth = from_[next_in_triangle(next_in_triangle(back))];
-  if (has_three_triangles(third) || has_three_triangles(fourth)) return false;
   ring.clear();
   HalfEdge around = h;
   do {
@@ -84,7 +81,16 @@ bool CollapseMesh::can_collapse(HalfEdge h, std::vector<std::uint32_t>& ring) co
     common += std::find(ring.begin(), ring.end(), to(around)) != ring.end() ? 1 : 0;
     around = next_around(around);
   } while (around != back);
-  return common == 2;
+  if (common != 2) return false;
+  // Of one with three triangles the last neighbour is beside both ends as well: the other of the
+  // two.
+  const auto across = [this](HalfEdge side) { return to(next_in_triangle(twin_[side])); };
+  const HalfEdge to_third = next_in_triangle(h);
+  const HalfEdge to_fourth = next_in_triangle(back);
+  const std::uint32_t third = to(to_third);
+  const std::uint32_t fourth = to(to_fourth);
+  return !(across(to_third) == fourth && has_three_triangles(third)) &&
+         !(across(to_fourth) == third && has_three_triangles(fourth));
 }
 
 void CollapseMesh::glue(HalfEdge a, HalfEdge b) noexcept {
@@ -131,6 +137,39 @@ void CollapseMesh::shorten_ways() noexcept {
     const std::uint32_t last = became(v);
     for (std::uint32_t u = v; u != last;) u = std::exchange(into_[u], last);
   }
+}
+
+CollapseMesh CollapseMesh::compacted(std::vector<std::uint32_t>& number) const {
+  CollapseMesh made;
+  number.assign(positions_.size(), kGone);
+  for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+    if (out_[v] == kGone) continue;
+    number[v] = static_cast<std::uint32_t>(made.positions_.size());
+    made.positions_.push_back(positions_[v]);
+  }
+  std::vector<std::uint32_t> triangle(from_.size() / 3, kGone);
+  std::uint32_t count = 0;
+  for (std::size_t t = 0; t < triangle.size(); ++t) {
+    if (from_[3 * t] != kGone) triangle[t] = count++;
+  }
+  const auto new_of = [&](HalfEdge h) { return 3 * triangle[triangle_of(h)] + h % 3; };
+  made.from_.reserve(std::size_t{3} * count);
+  made.twin_.reserve(std::size_t{3} * count);
+  for (HalfEdge h = 0; h < from_.size(); ++h) {
+    if (is_gone(h)) continue;
+    made.from_.push_back(number[from_[h]]);
+    made.twin_.push_back(new_of(twin_[h]));
+  }
+  for (const HalfEdge h : out_) {
+    if (h != kGone) made.out_.push_back(new_of(h));
+  }
+  made.into_.resize(made.positions_.size());
+  std::iota(made.into_.begin(), made.into_.end(), 0U);
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kGone) number[v] = number[became(v)];
+  }
+  assert(made.out_.size() == made.positions_.size());
+  return made;
 }
 
 TriangleMesh CollapseMesh::mesh(std::vector<std::uint32_t>& kept) const {

@@ -73,6 +73,10 @@ class CollapseMesh {
   std::vector<std::uint32_t> restore(const CollapseMesh& before,
                                      std::vector<std::uint8_t>& goes_back, const Pace& pace);
 
+  /// The same without what is gone, in the old order. `number` becomes the new number of what each
+  /// vertex has become.
+  CollapseMesh compacted(std::vector<std::uint32_t>& number) const;
+
   /// What is left, in the old order; `kept` becomes the old number of each vertex.
   TriangleMesh mesh(std::vector<std::uint32_t>& kept) const;
 

@@ -48,7 +48,7 @@ class CollapseRun {
         has_count_(triangles > 0),
         // No closed mesh has fewer than the four triangles of a tetrahedron.
         enough_(static_cast<std::size_t>(std::max<std::int64_t>(triangles, 4))) {
-    assert(locked.size() == surface.positions.size());
+    assert(locked.empty() || locked.size() == surface.positions.size());
   }
 
   Collapsed run(const Pace& pace);
@@ -75,11 +75,13 @@ class CollapseRun {
   std::uint16_t advance_class(std::vector<CollapseBlock>& blocks, std::size_t goal,
                               std::uint16_t end);
   Collapsed collapsed() const;
+  bool is_locked(std::uint32_t v) const { return !locked_.empty() && locked_[v]; }
 
   CollapseState state_;
   ThreadProbes probes_;
   const DecimationTarget& target_;
-  const std::vector<bool>& locked_;
+  const std::vector<bool>& locked_;  ///< of the surface's vertices; none where it is empty
+  std::vector<std::uint32_t> surface_vertex_;  ///< that each one is, once the state is compact
   std::size_t from_;
   std::size_t triangles_;  ///< left
   bool has_count_;
@@ -111,7 +113,7 @@ std::size_t CollapseRun::mark_rims(const std::vector<VertexBlock>& blocks) {
         is_rim = is_rim || block_of[mesh.to(h)] != b;
         h = mesh.next_around(h);
       } while (h != first);
-      state_.stays[v] = is_rim || locked_[v] ? 1 : 0;
+      state_.stays[v] = is_rim || is_locked(v) ? 1 : 0;
       rims[b] += is_rim ? 1 : 0;
     }
   });
@@ -189,6 +191,9 @@ Collapsed CollapseRun::collapsed() const {
   Collapsed done;
   done.steps = static_cast<std::int64_t>((from_ - triangles_) / 2);
   done.mesh = state_.mesh.mesh(done.kept);
+  if (!surface_vertex_.empty()) {
+    for (std::uint32_t& v : done.kept) v = surface_vertex_[v];
+  }
   assert(done.kept.size() == done.mesh.positions.size() &&
          done.mesh.triangles.size() == triangles_);
   return done;
@@ -226,7 +231,9 @@ CollapsedWithin CollapseRun::run_within(const TriangleMesh& surface, const Bound
   }
   state_.mesh.round_to_float();
   state_.mesh.shorten_ways();
-  BoundKeeper keeper(state_, surface, target_, proof, probes_);
+  static_cast<void>(state_.mesh.mesh(surface_vertex_));
+  const std::vector<std::uint32_t> vertex_for = state_.compact();
+  BoundKeeper keeper(state_, surface, vertex_for, target_, proof, probes_);
   advance({0, 0.55, rules, 2048}, pace.part(0.5, 0.65));
   advance({0, 0.45, rules, 1024}, pace.part(0.65, 0.7));
   advance({0, 0.6, rules, 4096}, pace.part(0.7, 0.75));
@@ -267,12 +274,12 @@ Result<CollapsedWithin> collapse_within(const TriangleMesh& surface, const Decim
                                         const DecimateOptions& options, const Pace& pace) {
   const std::unique_ptr<BoundProof> proof =
       target.proof(kProvenFraction * options.max_error_mm, pace.part(0.0, 0.1));
-  const std::vector<bool> locked(surface.positions.size(), false);
+  const std::vector<bool> none_locked;
   const TriangleMesh rounded = rounded_to_float(surface);
   const auto run = [&](bool is_careful) -> Result<CollapsedWithin> {
     std::optional<CollapseMesh> mesh = CollapseMesh::build(rounded);
     if (!mesh) return Error{ErrorKind::bad_input, kNotClosed};
-    return CollapseRun(std::move(*mesh), rounded, target, options.triangles, locked)
+    return CollapseRun(std::move(*mesh), rounded, target, options.triangles, none_locked)
         .run_within(rounded, *proof, options.max_error_mm, is_careful, pace.part(0.1, 1.0));
   };
   Result<CollapsedWithin> made = run(false);

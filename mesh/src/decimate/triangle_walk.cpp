@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <unordered_set>
@@ -59,7 +60,7 @@ double TriangleWalk::distance_mm(const Vec3& point_mm, double enough_mm) {
   least_ = distance_of(point_mm, at_);
   while (least_ > enough_mm && (look_across(point_mm) || look_around(point_mm))) {
   }
-  rely();
+  if (least_ <= enough_mm) rely();
   return least_;
 }
 
@@ -81,8 +82,51 @@ double TriangleWalk::distance_far_mm(const Vec3& point_mm, double enough_mm) {
       }
     }
   }
-  rely();
+  if (least_ <= enough_mm) rely();
   return least_;
+}
+
+void TriangleWalk::look_at_planes() {
+  if (planes_.of == at_) return;
+  planes_.of = at_;
+  HalfEdge h = at_;
+  for (Vec3& corner : planes_.corners) {
+    corner = mesh_.position(mesh_.from(h));
+    h = next_in_triangle(h);
+  }
+  const auto& [a, b, c] = planes_.corners;
+  planes_.normal = normalized(cross(b - a, c - a));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 side = planes_.corners[(k + 1) % 3] - planes_.corners[k];
+    const Vec3 inward = normalized(cross(planes_.normal, side));
+    planes_.inward[k] = inward;
+    planes_.wide[k] = std::abs(inward.x) + std::abs(inward.y) + std::abs(inward.z);
+  }
+}
+
+/// Where all of the cube lies above the triangle's inside, the distance from it is that from its
+/// plane, L, which along the surface is what L - s phi is, whatever s: with the s that makes them
+/// run most alike nearly one number all over the cube.
+bool TriangleWalk::covers(const SurfacePiece& piece, double bound_mm) {
+  assert(piece.half_side_mm >= 0.0 && piece.bend_mm >= 0.0);
+  constexpr double kLeastSteepness = 1e-3;  // squared; where phi is level it says nothing
+  const double steepness = dot(piece.gradient, piece.gradient);
+  if (steepness < kLeastSteepness) return false;
+  look_at_planes();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double within = dot(planes_.inward[k], piece.middle_mm - planes_.corners[k]);
+    // Not so where the triangle has no area either: then nothing points inward.
+    if (!(within > piece.half_side_mm * planes_.wide[k])) return false;
+  }
+  const double alike = dot(planes_.normal, piece.gradient) / steepness;
+  const double off =
+      dot(planes_.normal, piece.middle_mm - planes_.corners[0]) - alike * piece.phi_mm;
+  const Vec3 tilt = planes_.normal - alike * piece.gradient;
+  const double across = std::abs(tilt.x) + std::abs(tilt.y) + std::abs(tilt.z);
+  const double most = std::abs(off) + piece.half_side_mm * across + std::abs(alike) * piece.bend_mm;
+  if (most > bound_mm) return false;
+  rely();
+  return true;
 }
 
 void SheetWalks::begin(std::uint32_t vertex) {
@@ -111,6 +155,20 @@ double SheetWalks::distance_far_mm(const Vec3& point_mm, double enough_mm) {
     least = std::min(least, walks_[w].distance_far_mm(point_mm, enough_mm));
   }
   return least;
+}
+
+bool SheetWalks::go_on() {
+  if (count_ == 0) return false;
+  count_ = 1;
+  walks_.front().go_on();
+  return true;
+}
+
+bool SheetWalks::covers(const SurfacePiece& piece, double bound_mm) {
+  for (std::size_t w = 0; w < count_; ++w) {
+    if (walks_[w].covers(piece, bound_mm)) return true;
+  }
+  return false;
 }
 
 }  // namespace argil::mesh

@@ -16,6 +16,7 @@
 #include "argil/engine/surface.h"
 #include "argil/mesh/triangle_geometry.h"
 
+#include "compare/triangle_question.h"
 #include "io/compare/nearest_triangle.h"
 
 namespace argil::io {
@@ -201,6 +202,50 @@ TEST(BlockProof, AsksForTrianglesAcrossLevelsAsExactly) {
     proven += is_near(triangle, 1.1 * triangle.greatest_mm + 0.02 * kBallVoxelMm) ? 1 : 0;
   }
   EXPECT_GT(proven, triangles.size() * 9 / 10);
+}
+
+/// Triangles of any shape and of up to some ten voxels, with the greatest |phi| that points of them
+/// have.
+std::vector<AskewTriangle> of_any_shape(const Clay& clay, std::size_t count) {
+  std::mt19937 random(9);
+  const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
+  FieldSampler field(clay);
+  std::vector<AskewTriangle> found;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Vec3 at{1.5 * number(), 1.5 * number(), 6.2 + 0.5 * number()};
+    const double size = (n % 2 == 0 ? 1.0 : 5.0) * kBallVoxelMm;
+    AskewTriangle one;
+    for (Vec3& corner : one.corners) corner = at + size * Vec3{number(), number(), number()};
+    const Vec3 along = one.corners[1] - one.corners[0];
+    if (n % 4 == 2) one.corners[2] = one.corners[0] + 0.4 * along + Vec3{0.0, 1e-5, 0.0};
+    if (n % 8 == 3) one.corners[2] = one.corners[0] + 0.4 * along;
+    mesh::for_each_sample(60, [&](const std::array<double, 3>& w) {
+      const Vec3 p = w[0] * one.corners[0] + w[1] * one.corners[1] + w[2] * one.corners[2];
+      one.greatest_mm = std::max(one.greatest_mm, std::abs(field.distance_mm(p)));
+    });
+    for (const Vec3& corner : one.corners) {
+      one.greatest_mm = std::max(one.greatest_mm, std::abs(field.distance_mm(corner)));
+    }
+    found.push_back(one);
+  }
+  return found;
+}
+
+TEST(TriangleQuestion, IsExactForTrianglesOfAnyShape) {
+  const Clay clay = waves_on_a_cube();
+  FieldSampler field(clay);
+  const auto is_near = [&](const AskewTriangle& triangle, double bound_mm) {
+    return TriangleQuestion(bound_mm, kBallVoxelMm, field).is_near(triangle.corners);
+  };
+  std::size_t missed = 0;
+  const std::vector<AskewTriangle> triangles = of_any_shape(clay, 400);
+  for (std::size_t n = 0; n < triangles.size(); ++n) {
+    const AskewTriangle& triangle = triangles[n];
+    EXPECT_FALSE(is_near(triangle, 0.999 * triangle.greatest_mm)) << n;
+    // What lies in the last boxes that were cut, and between the points looked at.
+    missed += is_near(triangle, 1.03 * triangle.greatest_mm + 0.01 * kBallVoxelMm) ? 0 : 1;
+  }
+  EXPECT_LE(missed, triangles.size() / 50);
 }
 
 }  // namespace

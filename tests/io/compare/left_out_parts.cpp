@@ -19,6 +19,7 @@
 #include "argil/mesh/small_components.h"
 
 #include "compare/block_proof.h"
+#include "compare/surface_near.h"
 #include "io/compare/nearest_triangle.h"
 #include "support/scratch.h"
 
@@ -129,6 +130,45 @@ TEST(LeftOutParts, KeepAnEdgeOfWhichFinerCellsKeepAPart) {
   EXPECT_TRUE(is_left_out({}));
   EXPECT_TRUE(is_left_out(on_edge(2.5)));
   EXPECT_FALSE(is_left_out(on_edge(1.3)));
+}
+
+TEST(LeftOutParts, KeepAnEdgeThatAnEvenNumberOfLeftOutVerticesLieOn) {
+  // An edge of a cell two levels coarser, in whose lattice it runs from 0 to 4 voxels along x, with
+  // different signs at its ends: finer cells cut it in four, a speck has two of the parts, and what
+  // is kept one, whose vertex was moved off it.
+  SurfaceCell cell;
+  cell.level = 2;
+  cell.corners.fill(1.0F);
+  cell.corners[0] = -1.0F;
+  TriangleMesh others;
+  for (const Vec3& p : {Vec3{0.6, 0, 0}, Vec3{0, 1.2, 0}, Vec3{0, 0, 1.2}}) {
+    others.positions.push_back(kSpeckVoxelMm * p);
+  }
+  const TriangleMesh aside{{kSpeckVoxelMm * Vec3{2.5, 0.1, 0.1}}, {}, {}};
+  const Progress nobody;
+  const auto parts = [&] {
+    return LeftOutParts(aside, others, {cell}, kSpeckVoxelMm, Pace(nobody, ""));
+  };
+  EXPECT_TRUE(parts().has_all(0, {}, 1.0));
+  EXPECT_TRUE(parts().ambiguous().empty());
+  others.positions.push_back(kSpeckVoxelMm * Vec3{1.7, 0, 0});
+  EXPECT_FALSE(parts().has_all(0, {}, 1.0));
+  EXPECT_THAT(parts().ambiguous(), testing::Contains(0U));
+  others.positions.push_back(kSpeckVoxelMm * Vec3{3.2, 0, 0});
+  EXPECT_TRUE(parts().has_all(0, {}, 1.0));
+}
+
+TEST(LeftOutParts, AreAmbiguousByWhatIsNearAlone) {
+  for (const SpeckSizes& sizes : {SpeckSizes{}, kJoined}) {
+    const SpeckAboveCut scene(sizes);
+    const TriangleMesh near = surface_near(scene.surface, scene.left_out, *scene.clay, scene.pace);
+    EXPECT_GT(near.triangles.size(), 0U);
+    EXPECT_LT(near.triangles.size(), scene.surface.triangles.size());
+    const auto cells = surface_cells(near, *scene.clay, scene.pace);
+    const LeftOutParts some(near, scene.left_out, cells, kSpeckVoxelMm, scene.pace);
+    const LeftOutParts all(scene.surface, scene.left_out, scene.cells, kSpeckVoxelMm, scene.pace);
+    EXPECT_EQ(some.ambiguous(), all.ambiguous());
+  }
 }
 
 TEST(LeftOutParts, NameWhatTheFieldDoesNotTellApart) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -17,12 +18,13 @@ constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 TEST(TriangleRunsProperty, FindWhatATreeFinds) {
   constexpr unsigned kSeed = 5;
   std::mt19937 dice(kSeed);
+  const Progress nobody;
   std::uniform_real_distribution<double> place(-14.0, 14.0);
   TriangleMesh mesh = test::joined(test::torus_mesh(10.0, 3.0, 30, 20), test::ball_mesh(2.0, 3));
   for (const bool is_shuffled : {false, true}) {
     if (is_shuffled) std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), dice);
     const MeshDistance tree(mesh.positions, mesh.triangles);
-    const TriangleRuns runs(mesh);
+    const TriangleRuns runs(mesh, Pace(nobody, ""));
     for (int n = 0; n < 500; ++n) {
       const Vec3 at{place(dice), place(dice), place(dice)};
       const auto wanted = tree.closest(at, kAnywhere);
@@ -32,6 +34,14 @@ TEST(TriangleRunsProperty, FindWhatATreeFinds) {
       ASSERT_EQ(nearer.triangle, 7U) << "seed " << kSeed << ", point " << n;
     }
   }
+}
+
+TEST(TriangleRuns, HearAnInterruptionWhileTheyAreMade) {
+  const TriangleMesh mesh = test::ball_mesh(10.0, 8);
+  int heard = 0;
+  const Progress listen = [&](std::string_view, double) { return ++heard < 3; };
+  EXPECT_THROW(TriangleRuns(mesh, Pace(listen, "")), Interrupted);
+  EXPECT_EQ(heard, 3);
 }
 
 }  // namespace

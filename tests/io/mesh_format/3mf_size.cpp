@@ -80,6 +80,35 @@ TEST(ThreemfSize, IsForetoldToTheByte) {
   EXPECT_THAT(refused.error().message, testing::HasSubstr("write .stl or .ply"));
 }
 
+TEST(ThreemfSize, IsWatchedWhileItIsWrittenOnce) {
+  const SizedModel sized({test::ball_mesh(20.0, 6), test::ball_mesh(20.0, 6)});
+  const std::size_t bytes = written_text(sized.model);
+  const auto write_within = [&](std::uint64_t most) {
+    const test::ScratchFolder folder;
+    OutputFile out(folder / "a.3mf");
+    double last = 0.0;
+    const Progress listen = [&](std::string_view, double fraction) {
+      EXPECT_GE(fraction, last);  // from the start once
+      last = fraction;
+      return true;
+    };
+    Result<void> written = write_3mf(out, sized.model, listen, most);
+    EXPECT_TRUE(out.close());
+    return std::pair(std::move(written), last);
+  };
+  const auto [whole, all] = write_within(bytes + 1);
+  EXPECT_TRUE(whole);
+  EXPECT_GT(all, 0.9);
+  const auto [refused, nearly_all] = write_within(bytes);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::bad_input);
+  const auto [early, half] = write_within(bytes / 2);
+  ASSERT_FALSE(early);
+  EXPECT_EQ(early.error().kind, ErrorKind::bad_input);
+  EXPECT_THAT(early.error().message, testing::HasSubstr("write .stl or .ply"));
+  EXPECT_LT(half, 0.7);
+}
+
 TEST(ThreemfSize, IsNeverTakenForLess) {
   // Nearly nothing but the longest lines: what is told without looking must not be less.
   TriangleMesh longest = test::box_mesh({1, 2, 3});

@@ -71,6 +71,37 @@ TEST(CollapseMesh, StaysClosedAndKnowsWhatVerticesBecame) {
   }
 }
 
+TEST(CollapseMesh, IsTheSameWithoutWhatIsGone) {
+  const TriangleMesh ball = test::ball_mesh(5.0, 4);
+  std::optional<CollapseMesh> mesh = CollapseMesh::build(ball);
+  ASSERT_TRUE(mesh);
+  std::mt19937 random(3);
+  collapse(*mesh, 900, random);
+  std::vector<std::uint32_t> number;
+  CollapseMesh compact = mesh->compacted(number);
+  std::vector<std::uint32_t> kept;
+  std::vector<std::uint32_t> all;
+  const TriangleMesh left = mesh->mesh(kept);
+  EXPECT_EQ(compact.vertices(), left.positions.size());
+  EXPECT_EQ(compact.half_edges(), 3 * left.triangles.size());
+  EXPECT_EQ(compact.mesh(all).triangles, left.triangles);
+  EXPECT_EQ(compact.positions(), left.positions);
+  ASSERT_EQ(number.size(), ball.positions.size());
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    EXPECT_EQ(kept[number[v]], mesh->became(v));
+    EXPECT_EQ(compact.became(number[v]), number[v]);
+  }
+  for (HalfEdge h = 0; h < compact.half_edges(); ++h) {
+    EXPECT_EQ(compact.twin(compact.twin(h)), h);
+    EXPECT_EQ(compact.from(compact.twin(h)), compact.to(h));
+  }
+  // Steps go on in the same way.
+  collapse(*mesh, 50);
+  collapse(compact, 50);
+  EXPECT_EQ(compact.mesh(all).positions, mesh->mesh(kept).positions);
+  EXPECT_EQ(compact.mesh(all).triangles, mesh->mesh(kept).triangles);
+}
+
 TEST(CollapseMesh, GoesBackWhole) {
   const TriangleMesh ball = test::ball_mesh(5.0, 3);
   std::optional<CollapseMesh> mesh = CollapseMesh::build(ball);

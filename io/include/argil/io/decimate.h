@@ -12,7 +12,9 @@ namespace argil::io {
 /// mesh::decimate of the surface of a clay, held against the clay's field.
 ///
 /// Shapes       surface: as extract_surface gives it, small components left out or not; `left_out`
-///              as for measure_error (measure_error.h).
+///              as for measure_error (measure_error.h), both in doubles as extracted: with a bound,
+///              components that were rounded to floats count as kept, and since the mesh does not
+///              have them the answer is bad_input after all the work.
 /// Errors       as mesh::decimate; with a bound bad_input, before anything is removed, where the
 ///              clay does not tell what was left out from what is beside it within one voxel: it
 ///              names the place.

@@ -13,7 +13,9 @@ namespace argil::io {
 ///
 /// Shapes       surface: the clay's surface as extract_surface gives it, without the components
 ///              that `mesh` shall not have; left_out: those, where the clay has points that do not
-///              count.
+///              count. Neither rounded to floats: what was left out is known by the edges of the
+///              lattice that vertices lie on, to a millionth of an edge, and what is rounded counts
+///              as kept.
 /// Errors       bad_input without triangles; interrupted.
 /// Accuracy     within 5 % of dense sampling, also at sharp rims (ErrorCertificate*): points are
 ///              few where the error is small and dense where it may exceed the greatest found so

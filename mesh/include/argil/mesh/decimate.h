@@ -14,6 +14,16 @@
 
 namespace argil::mesh {
 
+/// A piece of a surface phi = 0 in a cube: its points are among those of the cube at which a linear
+/// function is near 0.
+struct SurfacePiece {
+  Vec3 middle_mm;             ///< of the cube
+  double half_side_mm = 0.0;  ///< 0 or more
+  double phi_mm = 0.0;        ///< the function in the middle
+  Vec3 gradient;              ///< and how it changes, in mm per mm; may be zero
+  double bend_mm = 0.0;       ///< how far from 0 the function is at points of the surface, at most
+};
+
 /// Finds the triangles of a mesh near one point after another, each search from where the last one
 /// ended. Distances are never less than from the mesh.
 class NearTriangles {
@@ -24,6 +34,10 @@ class NearTriangles {
   virtual double distance_mm(const Vec3& point_mm, double enough_mm) = 0;
   /// As distance_mm, but looks behind triangles that are not nearer too. Some 50 us.
   virtual double distance_far_mm(const Vec3& point_mm, double enough_mm) = 0;
+  /// Whether all of a piece of surface lies above or below the inside of the triangle that the
+  /// search has come to, within `bound_mm` of it: for certain, by the planes of triangle and piece,
+  /// which tell more than the cube around it. No search, some 10 ns; false where it is not asked.
+  virtual bool covers(const SurfacePiece& /*piece*/, double /*bound_mm*/) { return false; }
 };
 
 /// Proves that a mesh and a field lie within a bound of each other, piece by piece: the field's
@@ -46,6 +60,11 @@ class BoundProof {
   /// Whether every point with phi = 0 in the cell has a point of the mesh within the bound. `mesh`
   /// begins its search near the cell, on every sheet.
   virtual bool is_near(std::uint32_t cell, NearTriangles& mesh) const = 0;
+  /// The same without a look behind triangles that are not nearer: false where that does not tell,
+  /// and soon. Most cells are proven from the triangle that the cell before was near.
+  virtual bool is_near_at_once(std::uint32_t /*cell*/, NearTriangles& /*mesh*/) const {
+    return false;
+  }
   /// Sets `is_near[t]` to 1 where |phi| is within the bound all over triangle t, else to 0. Both
   /// have the same size.
   virtual void ask_triangles(std::span<const Corners> triangles,
@@ -111,7 +130,8 @@ struct Decimated {
 ///              Below a twentieth of a voxel nothing is proven, and the bound is refused.
 /// Determinism  same bits for any number of threads (DecimateScenes.SameBitsForAnyNumberOfThreads).
 /// Threads      any thread; spreads over TBB.
-/// Cost         3 us of CPU time for each triangle of `surface`; with a bound 4 us or more.
+/// Cost         2 to 3 us of CPU time for each triangle of `surface`; with a bound 3 to 4 us, more
+///              where much is taken back (bench_decimate).
 /// Source       M. Garland, P. Heckbert, "Surface simplification using quadric error metrics",
 ///              1997; P. Trettner, L. Kobbelt, "Fast and robust QEF minimization using
 ///              probabilistic quadrics", 2020, of which the isotropic term is taken. Ours differs:
