@@ -21,8 +21,8 @@ namespace {
 
 /// Work that nobody asks to stop.
 Pace unheard() {
-  static const Progress kNone;
-  return Pace(kNone, "lying");
+  static const Progress kUnheard;
+  return Pace(kUnheard, "lying");
 }
 
 TriangleMesh turned_mesh(TriangleMesh mesh, const Quat& turn) {

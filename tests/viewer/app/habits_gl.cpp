@@ -89,12 +89,17 @@ TEST_F(ViewHabitsGl, AKeyThatIsPressedForACommandIsItsKeyInTheNextWindow) {
   EXPECT_NE(middle(test::read_picture(folder_ / "wires.png")), plain);
 }
 
-TEST_F(ViewHabitsGl, ABadFileOfKeysChangesNothingAndIsToldOf) {
+TEST_F(ViewHabitsGl, ABadFileOfKeysChangesNothing) {
   const std::string bad = "{\n\"argil_keys\": 1,\n\"commands\": {\"wirez\": \"F7\"}}\n";
   test::fill(home() / "keys.json", bad);
-  played("frames 3\nshot told.png\nkey W\nframes 2\nkey Ctrl+M\nframes 3\nshot messages.png\n");
+  played(
+      "key T\nmove 20 620\nframes 3\nshot plain.png\nkey F7\nframes 3\nshot same.png\n"
+      "key W\nframes 3\nshot wires.png\nkey W\nkey Ctrl+M\nframes 3\nshot messages.png\n");
+  const auto plain = middle(test::read_picture(folder_ / "plain.png"));
+  EXPECT_EQ(middle(test::read_picture(folder_ / "same.png")), plain);
+  EXPECT_NE(middle(test::read_picture(folder_ / "wires.png")), plain);
   EXPECT_EQ(content(home() / "keys.json"), bad);
-  EXPECT_FALSE(std::filesystem::exists(home() / "keys-unread.json"));
+  EXPECT_FALSE(std::filesystem::exists(home() / "keys.json.unread"));
 }
 
 TEST_F(ViewHabitsGl, TheLightThemeIsKeptAndLight) {

@@ -148,5 +148,33 @@ TEST(BrushPresets, ANameIsAFilesNameToo) {
   EXPECT_NE(why_no_preset_name(std::string(61, 'x')), "");
 }
 
+TEST(BrushPresets, AFileWithAMistakeIsKeptBesideTheNewOne) {
+  const test::ScratchFolder folder;
+  BrushPreset preset = unusual_preset();
+  preset.name = "Mine";
+  ASSERT_TRUE(write_preset(folder.path(), preset).ok());
+  const auto file = preset_file(folder.path(), "Mine");
+  test::fill(file, "{\"argil_brush\": 1,}");
+  EXPECT_EQ(read_presets(folder.path()).problems.size(), 1U);
+  ASSERT_TRUE(write_preset(folder.path(), preset).ok());
+  EXPECT_TRUE(read_preset(file).ok());
+  EXPECT_TRUE(std::filesystem::exists(file.string() + ".unread"));
+}
+
+TEST(BrushPresets, AFileWhoseNameIsNoneIsRefused) {
+  const test::ScratchFolder folder;
+  BrushPreset preset = unusual_preset();
+  preset.name = "Mine";
+  ASSERT_TRUE(write_preset(folder.path(), preset).ok());
+  const auto file = preset_file(folder.path(), "Mine");
+  for (const std::string name :
+       {std::string("Fine ##2"), std::string(61, 'x'), std::string(".x")}) {
+    std::filesystem::copy(file, preset_file(folder.path(), name));
+  }
+  const PresetList list = read_presets(folder.path());
+  EXPECT_EQ(list.problems.size(), 3U);
+  EXPECT_EQ(list.presets.size(), built_in_presets().size() + 1);
+}
+
 }  // namespace
 }  // namespace argil::viewer

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "commands/command.h"
+#include "commands/unread_file.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {
@@ -69,10 +70,21 @@ TEST_F(KeyFile, ThatCannotBeReadIsKeptBesideTheNewOne) {
   test::fill(folder_ / "keys.json", "{\"argil_keys\": 1, \"set\": \"maya\"}");
   ASSERT_TRUE(write_keys(folder_.path(), KeyMap(KeySet::zbrush)).ok());
   EXPECT_EQ(read_keys(folder_.path()).value(), KeyMap(KeySet::zbrush));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "keys-unread.json"));
-  std::filesystem::remove(folder_ / "keys-unread.json");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "keys.json.unread"));
   ASSERT_TRUE(write_keys(folder_.path(), KeyMap()).ok());
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "keys-unread.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "keys.json.unread-2"));
+  test::fill(folder_ / "keys.json", "{");
+  ASSERT_TRUE(write_keys(folder_.path(), KeyMap()).ok());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "keys.json.unread-2"));
+}
+
+TEST_F(KeyFile, ThatCannotBeMovedAsideStands) {
+  const std::filesystem::path file = folder_ / std::string(250, 'k');  // and no longer name may be
+  test::fill(file, "{");
+  const auto moved = set_aside(file);
+  ASSERT_FALSE(moved.ok());
+  EXPECT_THAT(moved.error().message, HasSubstr("nothing was written over it"));
+  EXPECT_TRUE(std::filesystem::exists(file));
 }
 
 }  // namespace

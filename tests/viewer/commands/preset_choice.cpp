@@ -40,6 +40,21 @@ TEST_F(PresetChoiceTest, ABrushIsSavedUnderItsNameAndChosenByItsKey) {
   EXPECT_FALSE(ui_.measures.tool);
 }
 
+TEST_F(PresetChoiceTest, ItsDigitComesBeforeTheNumpadsThatItStandsFor) {
+  ui_.settings.has_number_views = true;
+  ui_.presets[0].key = chord_of("Ctrl+1");
+  key('1', false, kCtrl);  // else the view from behind
+  EXPECT_EQ(ui_.preset_choice.chosen, ui_.presets[0].name);
+}
+
+TEST_F(PresetChoiceTest, APressOnThePictureEndsTheWaitingForAKey) {
+  ui_.preset_choice.waits_for_key = true;
+  ui_.key_choice.waiting = Command::wires;
+  mouse(InputEvent::Kind::press);
+  EXPECT_FALSE(ui_.preset_choice.waits_for_key);
+  EXPECT_FALSE(ui_.key_choice.waiting);
+}
+
 TEST_F(PresetChoiceTest, ASavedBrushTakesThePlaceOfItsNameAndKeepsItsKey) {
   ui_.presets[0].key = chord_of("Ctrl+1");
   const std::string name = ui_.presets[0].name;

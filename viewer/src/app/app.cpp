@@ -14,7 +14,6 @@
 #include "argil/io/safe_file.h"
 
 #include "base/text.h"
-#include "commands/brush_preset.h"
 #include "commands/command.h"
 #include "commands/measure.h"
 #include "commands/measure_marks.h"

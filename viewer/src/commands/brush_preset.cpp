@@ -17,6 +17,7 @@
 #include "argil/io/safe_file.h"
 #include "argil/io/settings_file.h"
 
+#include "commands/unread_file.h"
 #include "document/tool_info.h"
 
 namespace argil::viewer {
@@ -290,7 +291,19 @@ Result<void> write_preset(const fs::path& home, const BrushPreset& preset) {
   const fs::path file = preset_file(home, preset.name);
   std::error_code error;
   fs::create_directories(file.parent_path(), error);  // what is wrong shows when it is written
+  if (fs::exists(file, error) && !read_preset(file)) {
+    if (auto kept = set_aside(file); !kept) return kept;
+  }
   return io::replace_text(file, preset_text(preset));
+}
+
+/// One that may be written again under its name.
+Result<BrushPreset> read_named_preset(const fs::path& file) {
+  auto preset = read_preset(file);
+  if (!preset) return preset;
+  const std::string why = why_no_preset_name(preset.value().name);
+  if (why.empty()) return preset;
+  return Error{ErrorKind::bad_input, file.string() + ": " + why + "; rename the file"};
 }
 
 PresetList read_presets(const fs::path& home) {
@@ -299,7 +312,7 @@ PresetList read_presets(const fs::path& home) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(home / "brushes", error)) {
     if (entry.path().extension() != ".json") continue;
-    auto read = read_preset(entry.path());
+    auto read = read_named_preset(entry.path());
     if (!read) {
       list.problems.push_back(read.error());
       continue;
@@ -314,13 +327,10 @@ PresetList read_presets(const fs::path& home) {
 }
 
 Result<BrushPreset> import_preset(const fs::path& home, const fs::path& file) {
-  auto preset = read_preset(file);
+  auto preset = read_named_preset(file);
   if (!preset) return preset;
   BrushPreset& taken = preset.value();
   const std::string own_name = taken.name;
-  if (const std::string why = why_no_preset_name(own_name); !why.empty()) {
-    return Error{ErrorKind::bad_input, file.string() + ": " + why + "; rename the file"};
-  }
   taken.name = free_name(own_name, kMostPresetName, [&](const std::string& tried) {
     std::error_code error;
     return fs::exists(preset_file(home, tried), error) &&

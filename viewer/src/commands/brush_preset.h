@@ -36,14 +36,15 @@ std::string why_no_preset_name(const std::string& name);
 ///         kind or out of range, with the range. Nothing of such a file is taken.
 Result<BrushPreset> read_preset(const std::filesystem::path& file);
 
-/// Errors  as io::replace_file.
+/// A file there that cannot be read is kept aside (unread_file.h).
+/// Errors  as io::replace_file and set_aside().
 Result<void> write_preset(const std::filesystem::path& home, const BrushPreset& preset);
 
 /// The built-in ones and those in HOME/brushes, of which one takes the place of a built-in one with
 /// its name: by name.
 struct PresetList {
   std::vector<BrushPreset> presets;
-  std::vector<Error> problems;  ///< of files that could not be read
+  std::vector<Error> problems;  ///< of files that could not be read, or whose name is none
 };
 PresetList read_presets(const std::filesystem::path& home);
 

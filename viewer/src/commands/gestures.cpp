@@ -133,12 +133,12 @@ void Gestures::key(const InputEvent& event, bool is_asked) {
 void Gestures::do_key(const InputEvent& event) {
   // A digit that was given to something is that; else it may stand for one of the numpad.
   auto aim = ui_.keys.aim_of({event.key, event.modifiers});
-  if (!aim) aim = ui_.keys.aim_of({key_meant(event.key, ui_.settings), event.modifiers});
   if (!aim) {
     const BrushPreset* preset = preset_of({event.key, event.modifiers}, ui_);
-    if (preset != nullptr) choose_preset(*preset, ui_);
-    return;
+    if (preset != nullptr) return choose_preset(*preset, ui_);
+    aim = ui_.keys.aim_of({key_meant(event.key, ui_.settings), event.modifiers});
   }
+  if (!aim) return;
   if (const auto* tool = std::get_if<const ToolInfo*>(&*aim)) return choose_tool(**tool, ui_);
   const Command command = std::get<Command>(*aim);
   if (event.is_repeat && !goes_on_while_held(command)) return;
@@ -176,6 +176,10 @@ void Gestures::escape() {
 // ---- the mouse ---------------------------------------------------------------------------------
 
 void Gestures::press(const InputEvent& event) {
+  // Whoever goes on with the clay no longer means the key that a panel waits for.
+  ui_.key_choice.waiting.reset();
+  ui_.key_choice.wanted.reset();
+  ui_.preset_choice.waits_for_key = false;
   if (ui_.brush_drag) {
     // Left takes the new size or strength, any other button goes back, as in Blender.
     if (event.button != MouseButton::left) ui_.brush = ui_.brush_drag->before;

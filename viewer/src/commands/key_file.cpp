@@ -13,6 +13,7 @@
 #include "argil/io/settings_file.h"
 
 #include "commands/command_info.h"
+#include "commands/unread_file.h"
 
 namespace argil::viewer {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKeyFile = "keys.json";
-constexpr const char* kUnreadKeyFile = "keys-unread.json";
 constexpr const char* kCommandSection = "commands";
 constexpr const char* kToolSection = "tools";
 
@@ -183,7 +183,9 @@ Result<void> write_keys(const fs::path& home, const KeyMap& keys) {
   std::error_code error;
   fs::create_directories(home, error);  // what is wrong shows when the file is written
   const fs::path file = home / kKeyFile;
-  if (fs::exists(file, error) && !read_keys(home)) fs::rename(file, home / kUnreadKeyFile, error);
+  if (fs::exists(file, error) && !read_keys(home)) {
+    if (auto kept = set_aside(file); !kept) return kept;
+  }
   return io::replace_text(file, io::settings_text(entries));
 }
 

@@ -23,8 +23,8 @@ namespace argil::viewer {
 ///         that the file gives twice. Nothing of such a file is taken.
 Result<KeyMap> read_keys(const std::filesystem::path& home);
 
-/// Writes it: the set, and what differs from it. A file there that cannot be read is kept as
-/// HOME/keys-unread.json. Errors  as io::replace_file.
+/// Writes it: the set, and what differs from it. A file there that cannot be read is kept
+/// aside (unread_file.h). Errors  as io::replace_file and set_aside().
 Result<void> write_keys(const std::filesystem::path& home, const KeyMap& keys);
 
 }  // namespace argil::viewer
