@@ -2,6 +2,7 @@
 // meshoptimizer's simplifier, where Argil was built with it.
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 

@@ -120,6 +120,7 @@ Origins Rebuilder::octants(int level) const {
 
 /// Kept, since balance() may fill a level again. Null: asked to stop.
 const MovedLevel* Rebuilder::moved(int level) {
+  assert(static_cast<std::size_t>(level) < moved_.size());
   auto& kept = moved_[static_cast<std::size_t>(level)];
   if (kept != nullptr) return kept.get();
   const double voxel = stack_->voxel_mm(level);

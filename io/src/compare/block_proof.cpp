@@ -48,14 +48,16 @@ class BlockProof::CellQuestion {
     const double bound = proof_.bound_mm_;
     const mesh::SurfacePiece piece = piece_of(low, side);
     if (mesh_.covers(piece, bound)) return true;
-    double distance = mesh_.distance_mm(at, bound - reach);
-    if (distance + reach <= bound || mesh_.covers(piece, bound)) return true;
+    // The search notes the triangle that it relies on by this very comparison.
+    const double enough = bound - reach;
+    double distance = mesh_.distance_mm(at, enough);
+    if (distance <= enough || mesh_.covers(piece, bound)) return true;
     const bool is_least = reach <= kLeastPiece * bound;
     // Where all of the box seems to lie beyond, a wider search tells.
     if (is_least || distance - reach > bound) {
       if (!looks_far_) return false;
-      distance = mesh_.distance_far_mm(at, bound - reach);
-      if (distance + reach <= bound) return true;
+      distance = mesh_.distance_far_mm(at, enough);
+      if (distance <= enough) return true;
       if (is_least || distance - reach > bound) return is_left_out(low, side);
     }
     for (int octant = 0; octant < 8; ++octant) {

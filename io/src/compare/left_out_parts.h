@@ -20,7 +20,8 @@ namespace argil::io {
 /// phi is linear: through each such edge once. A vertex of the extracted surface that lies on a
 /// lattice edge is the edge's own, whatever else is near; so an edge is of what was left out where
 /// such a vertex was, and none that is kept lies on it, nor an even number of vertices that were
-/// left out, of which one more must be kept where the ends differ in sign. A piece all of whose
+/// left out, of which one more must be kept where the ends differ in sign (which the levels of a
+/// clay, one apart where they meet, do not bring about). A piece all of whose
 /// edges are was left out. Pieces are told apart by the boxes of a cell cut in 16 along each axis
 /// that phi = 0 passes through: what those of different clusters hold is not connected within the
 /// cell. What is not told apart, and an edge whose vertex was moved off it (docs/surface.md),

@@ -20,7 +20,7 @@ using CellIndex = std::array<int, 3>;
 /// normal is nearest to, and of each the cells between the least and the greatest height of its
 /// plane.
 ///
-/// Shapes       corners in cells, of any area and none, less than 2^30 from 0.
+/// Shapes       corners in cells, of any area and none, less than 2^20 from 0.
 /// Accuracy     no cell with a point of the triangle is left out, faces and rounding included; some
 ///              beside it may be among them, within a cell of its sides.
 /// Determinism  one order of the cells for a triangle.
@@ -112,7 +112,7 @@ inline TriangleCells::TriangleCells(const mesh::Corners& corners) {
     }
     low_[axis] = range.low;
     high_[axis] = range.high;
-    assert(std::max(std::abs(range.low), std::abs(range.high)) < 1 << 30);
+    assert(std::max(std::abs(range.low), std::abs(range.high)) < 1 << 20);
   }
   // Without area there is no plane: then all heights of its box count.
   const double height = normal[highest];

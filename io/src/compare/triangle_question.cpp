@@ -17,12 +17,16 @@ double half_width(const Vec3& normal, const Vec3& half) noexcept {
   return std::abs(normal.x) * half.x + std::abs(normal.y) * half.y + std::abs(normal.z) * half.z;
 }
 
-/// Of unit length; where the triangle has no area to speak of, any across its longest side.
-Vec3 unit_normal(const mesh::Corners& c) noexcept {
+/// Whether a triangle has an area to speak of: rounding does not turn its normal.
+bool has_area(const mesh::Corners& c) noexcept {
   constexpr double kLeastShape = 1e-9;
-  const Vec3 across = mesh::area_normal(c);
   const double side = mesh::longest_side(c);
-  if (length(across) > kLeastShape * side * side) return normalized(across);
+  return length(mesh::area_normal(c)) > kLeastShape * side * side;
+}
+
+/// Of unit length; of a triangle without an area to speak of any across its longest side.
+Vec3 unit_normal(const mesh::Corners& c) noexcept {
+  if (has_area(c)) return normalized(mesh::area_normal(c));
   Vec3 longest;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 along = c[(k + 1) % 3] - c[k];
@@ -49,7 +53,8 @@ void TriangleQuestion::take(const mesh::Corners& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
     box_.include(corners[k]);
     off_mm_ = std::max(off_mm_, std::abs(dot(normal_, corners[k] - corners[0])));
-    inward_[k] = cross(normal_, corners[(k + 1) % 3] - corners[k]);
+    // No side tells of a sliver: its normal may be that of the other order of its corners.
+    inward_[k] = has_area(corners) ? cross(normal_, corners[(k + 1) % 3] - corners[k]) : Vec3{};
   }
 }
 

@@ -56,7 +56,7 @@ class TriangleQuestion {
   std::array<Vec3, 3> corners_;
   Vec3 normal_;                 ///< of unit length, or 0
   double off_mm_ = 0.0;         ///< how far rounding takes the corners from the plane
-  std::array<Vec3, 3> inward_;  ///< along the plane and normal to the side from each corner
+  std::array<Vec3, 3> inward_;  ///< along the plane and normal to the side from each corner; or 0
 };
 
 }  // namespace argil::io

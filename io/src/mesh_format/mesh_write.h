@@ -35,9 +35,9 @@ Result<void> check_size(MeshFormat format, const TriangleMesh& mesh_mm, const Pr
 
 /// Writes `mesh_mm` to `out`, rounding to float on the way. The order of vertices and triangles is
 /// kept; the same mesh gives the same bytes.
-/// Errors  as check_writable; bad_input for what the format cannot hold, of a 3MF with a part in
-///         `out`; interrupted. Disk errors
-///         stay in `out`.
+/// Errors  as check_writable; bad_input for what the format cannot hold, which of a 3MF shows when
+/// part of it is
+///         in `out`; interrupted. Disk errors stay in `out`.
 Result<void> write_format(OutputFile& out, MeshFormat format, const TriangleMesh& mesh_mm,
                           const WriteOptions& options, const Progress& progress);
 

@@ -21,13 +21,14 @@ struct JoinedCase {
   JoinJob job{};
 };
 
-/// Nodes on both sides, some at the surface, some of which feet say nothing.
+/// Nodes on both sides, some at the surface, some at the end of the band (where feet are believed)
+/// or, as a coarser level tells it, beyond, some of which feet say nothing.
 JoinedCase some_joined(std::mt19937& dice) {
-  std::uniform_real_distribution<float> clay(-3.0F, 3.0F);
+  std::uniform_real_distribution<float> clay(-4.0F, 4.0F);
   std::uniform_real_distribution<float> feet(0.0F, 8.0F);
   JoinedCase made;
   for (std::size_t n = 0; n < kJoinedNodes; ++n) {
-    made.near[n] = n % 37 == 0 ? 0.0F : clay(dice);
+    made.near[n] = n % 37 == 0 ? 0.0F : n % 5 == 0 ? std::copysign(3.0F, clay(dice)) : clay(dice);
     for (JoinedNodes& told : made.told) told[n] = n % 11 == 0 ? 8.0F : feet(dice);
   }
   return made;

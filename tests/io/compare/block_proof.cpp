@@ -248,5 +248,21 @@ TEST(TriangleQuestion, IsExactForTrianglesOfAnyShape) {
   EXPECT_LE(missed, triangles.size() / 50);
 }
 
+TEST(TriangleQuestion, CallsNoSliverNearByASideThatLooksTheOtherWay) {
+  const Clay clay = Clay::ball(2.0, {0.2, 0.1}).value();
+  FieldSampler field(clay);
+  for (const double f : {1.2e-8, 1e-9, 1e-10, 3e-8}) {
+    for (const double along : {8.0, 1.0, 1e-2, 1e-4, 0.0}) {
+      for (const double turn : {f, -f}) {
+        // From 1 mm below the surface outward: phi is beyond 0.4 mm along most of it.
+        mesh::Corners sliver{Vec3{1.0, 0.0, 0.0}, Vec3{1.0 + along, turn, f}, Vec3{21.0, 0.0, 0.0}};
+        EXPECT_FALSE(TriangleQuestion(0.4, 0.2, field).is_near(sliver)) << f << " " << along;
+        std::swap(sliver[0], sliver[1]);
+        EXPECT_FALSE(TriangleQuestion(0.4, 0.2, field).is_near(sliver)) << f << " " << along;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace argil::io

@@ -167,7 +167,7 @@ TEST(BrushPresets, AFileWhoseNameIsNoneIsRefused) {
   preset.name = "Mine";
   ASSERT_TRUE(write_preset(folder.path(), preset).ok());
   const auto file = preset_file(folder.path(), "Mine");
-  for (const std::string name :
+  for (const std::string& name :
        {std::string("Fine ##2"), std::string(61, 'x'), std::string(".x")}) {
     std::filesystem::copy(file, preset_file(folder.path(), name));
   }

@@ -36,7 +36,8 @@ class NearTriangles {
   virtual double distance_far_mm(const Vec3& point_mm, double enough_mm) = 0;
   /// Whether all of a piece of surface lies above or below the inside of the triangle that the
   /// search has come to, within `bound_mm` of it: for certain, by the planes of triangle and piece,
-  /// which tell more than the cube around it. No search, some 10 ns; false where it is not asked.
+  /// which tell more than the cube around it. No search, some 10 ns; false where the search does
+  /// not offer it.
   virtual bool covers(const SurfacePiece& /*piece*/, double /*bound_mm*/) { return false; }
 };
 

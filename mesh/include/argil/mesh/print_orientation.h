@@ -92,8 +92,7 @@ Vec3 laid_flat(const TriangleMesh& mesh, const Vec3& up);
 ///              roughness of its surface counts as a whole; usually a voxel.
 /// Determinism  same bits every time.
 /// Errors       throws Interrupted and std::bad_alloc: to be called within no_throw. `pace` is
-/// asked
-///              before each direction and each side, a few passes over the vertices apart.
+///              asked before each direction and each side, a few passes over the vertices apart.
 /// Cost         some 0.3 s of CPU time, and two passes over the vertices for each side that it can
 ///              rest on.
 Vec3 lying_on_most(const TriangleMesh& mesh, const Vec3& up, double slack_mm, const Pace& pace);
