@@ -121,6 +121,7 @@ class Editor {
   Result<void> insert(PieceLook look, Clay clay, std::size_t index);
   Result<void> check_memory(const Clay& clay) const;
   Result<void> check_memory(const ClayUse& more) const;
+  Result<void> check_memory(const LevelStack& levels) const;
   Result<void> check_factor(const ScalePiece& scale, const Clay& clay) const;
   using LevelList = std::vector<std::unique_ptr<LevelStack>>;
   Result<LevelList> solids_of(const SplitPiece& split, const Clay& clay) const;
@@ -183,9 +184,18 @@ Result<void> Editor::check_memory(const ClayUse& more) const {
   std::int64_t taken = state_.held_bytes;
   for (const Piece& piece : state_.pieces) taken += bytes_of(piece.clay->use());
   if (taken + more.level_bytes + more.mask_bytes <= most) return {};
-  return Error{ErrorKind::memory,
-               "another piece of " + std::to_string(more.level_bytes >> 20) +
-                   " MB does not fit beside those that are there; remove some, or resample them"};
+  return Error{
+      ErrorKind::memory,
+      "another " + std::to_string(more.level_bytes >> 20) +
+          " MB do not fit beside the pieces that are there; remove some, or resample them"};
+}
+
+/// The same for the levels alone: the former ones stay for undo where others replace them.
+Result<void> Editor::check_memory(const LevelStack& levels) const {
+  ClayUse more;
+  more.level_bytes = leaf_bytes(levels);
+  more.mask_bytes = mask_bytes(levels);
+  return check_memory(more);
 }
 
 /// Which piece goes on where one is taken out.
@@ -342,6 +352,7 @@ Result<void> Editor::operator()(const ScalePiece& scale) {
   if (scale.about_mm) at = *scale.about_mm + scale.factor * (at - *scale.about_mm);
   if (auto valid = validate_look(look); !valid) return valid;
   look.placement = settled(look.placement);
+  if (auto fits = check_memory(levels_of(*piece.clay)); !fits) return fits;
   SculptureStep step{{ClayStep{piece.id}}};
   const bool is_moved = !(look.placement.position_mm == piece.look.placement.position_mm);
   if (is_moved) step.parts.emplace_back(OtherLook{piece.id, std::move(look)});
@@ -374,6 +385,8 @@ Result<Editor::LevelList> Editor::solids_of(const SplitPiece& split, const Clay&
                      std::to_string(Sculpture::kMostPieces) +
                      " pieces; give a larger share of crumbs");
   }
+  // All solids together are about as large; what they are is checked when they are made.
+  if (auto fits = check_memory(levels_of(clay)); !fits) return fits.error();
   for (std::uint32_t& part : solids.of_triangle) part = part < count ? part : 0;
   const ClayOptions& options = clay.options();
   return split_levels(levels_of(clay), surface.value(), solids.of_triangle, count,

@@ -190,6 +190,20 @@ TEST(SculptureScale, TakesTheMaskAlong) {
   EXPECT_THAT(sculpture.clay().validate(), IsEmpty());
 }
 
+/// What it was stays for undo.
+TEST(SculptureScale, AsksForMemoryBeforeItTakesIt) {
+  Sculpture sculpture(clay_of_balls({{{}, 4.0}}));
+  const std::int64_t bytes = sculpture.clay().use().level_bytes;
+  const std::uint64_t before = sculpture.hash();
+  ASSERT_TRUE(sculpture.set_limits({.memory_bytes = 2 * bytes - 1}));
+  const auto scaled = sculpture.apply(ScalePiece{"Clay", 2.0});
+  ASSERT_FALSE(scaled);
+  EXPECT_EQ(scaled.error().kind, ErrorKind::memory);
+  EXPECT_EQ(sculpture.hash(), before);
+  ASSERT_TRUE(sculpture.set_limits({.memory_bytes = 2 * bytes}));
+  EXPECT_TRUE(sculpture.apply(ScalePiece{"Clay", 2.0}));
+}
+
 TEST(SculptureScale, RefusesWhatNoClayCanBeAndStopsWhenAsked) {
   Sculpture sculpture(clay_of_balls({{{}, 4.0}}));
   const std::uint64_t before = sculpture.hash();
@@ -355,6 +369,17 @@ TEST(SculptureSplit, KeepsLookPlaceAndMaskAndRefusesWhatItCannot) {
     EXPECT_EQ(stopped.error().kind, ErrorKind::interrupted);
     EXPECT_EQ(sculpture.hash(), before);
   }
+  // Memory is asked for before the solids are made, each of whose levels would be told of.
+  const ClayLimits limits = sculpture.clay().limits();
+  ASSERT_TRUE(sculpture.set_limits({.memory_bytes = sculpture.clay().use().level_bytes * 3 / 2}));
+  int told = 0;
+  const auto too_large =
+      sculpture.apply(SplitPiece{"Pair"}, [&](std::string_view, double) { return ++told > 0; });
+  ASSERT_FALSE(too_large);
+  EXPECT_EQ(too_large.error().kind, ErrorKind::memory);
+  EXPECT_LT(told, asked);
+  EXPECT_EQ(sculpture.hash(), before);
+  ASSERT_TRUE(sculpture.set_limits(limits));
   ASSERT_TRUE(sculpture.apply(SplitPiece{"Pair"}));
   for (std::size_t n = 0; n < 2; ++n) {
     EXPECT_EQ(sculpture.look(n).placement.position_mm, (Vec3{0.0, 5.0, 1.0}));

@@ -50,6 +50,37 @@ class PieceGesturesTest : public GesturesTest {
   }
 };
 
+/// Of an ellipsoid about no centre, so that nothing is as it was by chance.
+TEST(FollowMarks, TheyAreScaledWithThePieceKeptByResamplingAndGoneWithASplit) {
+  const MarkedClay small{{{-1.0, -2.0, -3.0}, {4.0, 5.0, 6.0}}, 0.25, 1};
+  const MarkedClay large{{{-2.0, -4.0, -6.0}, {8.0, 10.0, 12.0}}, 0.5, 1};
+  const MarkedClay coarse{{{-1.1, -2.0, -2.9}, {4.0, 5.1, 6.0}}, 0.5, 1};
+  const MarkedClay part{{{-1.0, -2.0, -3.0}, {1.0, 5.0, 6.0}}, 0.25, 2};
+  const MarkedClay joined{{{-1.0, -2.0, -3.0}, {4.0, 5.0, 6.0}}, 0.25, 2};
+  UiState ui;
+  follow_marks(small, large, ui);
+  EXPECT_TRUE(ui.notices.empty()) << "there are none";
+  ui.operation.drains.push_back({{4.0, 1.0, 2.0}, {-1.0, 0.0, 0.0}, 2.0});
+  ui.haptics.guidance.path_mm = {{0.0, 5.0, 1.0}};
+  follow_marks({}, small, ui);
+  follow_marks(small, small, ui);
+  follow_marks(small, coarse, ui);
+  follow_marks(small, joined, ui);
+  EXPECT_EQ(ui.operation.drains.at(0).point_mm, (Vec3{4.0, 1.0, 2.0}));
+  EXPECT_TRUE(ui.notices.empty());
+  follow_marks(small, large, ui);
+  EXPECT_EQ(ui.operation.drains.at(0).point_mm, (Vec3{8.0, 2.0, 4.0}));
+  EXPECT_EQ(ui.operation.drains.at(0).radius_mm, 2.0);
+  EXPECT_EQ(ui.haptics.guidance.path_mm.at(0), (Vec3{0.0, 10.0, 2.0}));
+  ASSERT_EQ(ui.notices.size(), 1U);
+  follow_marks(large, small, ui);
+  EXPECT_EQ(ui.operation.drains.at(0).point_mm, (Vec3{4.0, 1.0, 2.0})) << "taken back";
+  follow_marks(small, part, ui);
+  EXPECT_TRUE(ui.operation.drains.empty());
+  EXPECT_TRUE(ui.haptics.guidance.path_mm.empty());
+  ASSERT_EQ(ui.notices.size(), 3U);
+}
+
 TEST_F(PieceGesturesTest, ADragIsShownAtOnceAndIsOneStepAtItsEnd) {
   perform(Command::piece_gizmo, ui_, document_);
   const Camera::Pixel from = arrow();

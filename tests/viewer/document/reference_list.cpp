@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "document/reference_list.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -90,10 +92,59 @@ TEST_F(ReferenceListTest, KeepsWhatCannotBeReadNowAndNamesLinesThatAreNone) {
   ASSERT_EQ(list.images.size(), 1U);
   EXPECT_EQ(list.images[0].pixels, nullptr);
   ASSERT_EQ(list.problems.size(), 8U);
+  ASSERT_EQ(list.unread.size(), 7U);
   EXPECT_THAT(list.problems[0].message, HasSubstr("gone.png"));
   EXPECT_THAT(list.problems[1].message, HasSubstr("owl.references.txt:2 names no reference"));
-  ASSERT_TRUE(write_references(project, list.images));
+  // They may be of a newer version, or mistyped: they outlive what is changed, and all images.
+  ASSERT_TRUE(write_references(project, list.images, list.unread));
   EXPECT_EQ(read_references(project).images.size(), 1U);
+  EXPECT_EQ(read_references(project).unread, list.unread);
+  ASSERT_TRUE(write_references(project, {}, list.unread));
+  EXPECT_TRUE(read_references(project).images.empty());
+  EXPECT_EQ(read_references(project).unread, list.unread);
+}
+
+/// A link to itself opens for nobody, not even for the one who may read everything.
+TEST_F(ReferenceListTest, AListThatCannotBeReadIsToldAndStays) {
+  const fs::path project = folder_ / "owl.vdb";
+  const fs::path kept = folder_ / "owl.references.txt";
+  const std::vector<ReferenceImage> images{made(image(folder_ / "a.png"))};
+  fs::create_symlink(kept, kept);
+  const auto is_refused = [&] {
+    const ReferenceList list = read_references(project);
+    ASSERT_EQ(list.problems.size(), 1U);
+    EXPECT_THAT(list.problems[0].message, HasSubstr("cannot read"));
+    for (const auto& written : {write_references(project, images), write_references(project, {})}) {
+      ASSERT_FALSE(written);
+      EXPECT_EQ(written.error().kind, ErrorKind::disk);
+    }
+  };
+  is_refused();
+  EXPECT_TRUE(fs::is_symlink(kept));
+  fs::remove(kept);
+  fs::create_directory(kept);
+  is_refused();
+  EXPECT_TRUE(fs::is_directory(kept));
+}
+
+TEST_F(ReferenceListTest, RefusesAnImageThatTakesLongAndANameThatTheListCannotHold) {
+  const auto refuses = [](const fs::path& file, const char* message) {
+    const auto read = reference_of(file, StraightView::left, 10.0);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::bad_input);
+    EXPECT_THAT(read.error().message, HasSubstr(message));
+  };
+  constexpr int kWide = 5000;
+  constexpr int kHigh = static_cast<int>(kMostReferencePixels / kWide);
+  const auto image_of_height = [&](const char* name, int height) {
+    const std::size_t bytes = std::size_t{3} * kWide * static_cast<std::size_t>(height);
+    EXPECT_TRUE(io::write_png(folder_ / name,
+                              {kWide, height, std::vector<std::uint8_t>(bytes, std::uint8_t{9})}));
+    return folder_ / name;
+  };
+  refuses(image_of_height("more.png", kHigh + 1), "5000 x 2501 pixels");
+  EXPECT_TRUE(reference_of(image_of_height("most.png", kHigh), StraightView::left, 10.0));
+  refuses(image(folder_ / "two\nlines.png"), "more than a line");
 }
 
 }  // namespace

@@ -472,6 +472,9 @@ void App::take_pieces(bool was_idle) {
     ui_.pieces.refused_at.reset();
     asked_.reset();
   }
+  const MarkedClay former = std::exchange(
+      marked_, {ui_.clay.surface_mm, ui_.clay.voxel_mm, ui_.clay.pieces->pieces.size()});
+  follow_marks(former, marked_, ui_);
   // Shown there until the document has it there, or has refused.
   if (is_drag_done(ui_, was_idle)) ui_.pieces.drag.reset();
   const auto answer = document_.answer();

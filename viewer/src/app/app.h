@@ -15,6 +15,7 @@
 #include "argil/viewer/view.h"
 
 #include "commands/gestures.h"
+#include "commands/piece_edits.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
 #include "haptics/haptic_control.h"
@@ -164,9 +165,11 @@ class App {
   std::int64_t framed_ = 0;         ///< ClayState::number of the clay that the camera has framed
   std::int64_t framed_pieces_ = 0;  ///< ClayState::pieces_added that the camera has framed
   std::vector<ReferenceImage> kept_references_;  ///< as they are in the file
+  std::vector<std::string> unread_references_;   ///< ReferenceList::unread of that file
   std::int64_t referenced_clay_ = 0;             ///< ClayState::number of the clay that they are of
   std::filesystem::path referenced_file_;
   std::optional<PieceKey> active_piece_;  ///< of the last frame
+  MarkedClay marked_;                     ///< likewise
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with
   std::filesystem::path last_file_;

@@ -45,17 +45,19 @@ void App::take_dropped_alpha() {
 void App::follow_references() {
   if (!ui_.clay.has_clay) return;
   const bool is_other = std::exchange(referenced_clay_, ui_.clay.number) != ui_.clay.number;
-  const bool is_renamed = std::exchange(referenced_file_, ui_.clay.file) != ui_.clay.file;
   if (is_other) {
+    referenced_file_ = ui_.clay.file;
     ReferenceList list = ui_.clay.is_untitled ? ReferenceList() : read_references(ui_.clay.file);
     for (const Error& problem : list.problems) tell({Notice::Kind::warning, problem.message});
     ui_.references = kept_references_ = std::move(list.images);
+    unread_references_ = std::move(list.unread);
     return;
   }
   if (ui_.clay.is_untitled || gui_.is_held()) return;
+  const bool is_renamed = std::exchange(referenced_file_, ui_.clay.file) != ui_.clay.file;
   if (!is_renamed && ui_.references == kept_references_) return;
   kept_references_ = ui_.references;  // also where it fails, or it would be told with every frame
-  if (auto kept = write_references(ui_.clay.file, ui_.references); !kept) {
+  if (auto kept = write_references(ui_.clay.file, ui_.references, unread_references_); !kept) {
     tell(notice_of(kept.error()));
   }
 }

@@ -65,11 +65,11 @@ void App::end_still(Notice notice) {
 void App::step_still() {
   if (!ui_.still.done) {
     still_.reset();
-    stops_still_ = true;
+    stops_still_ = true;  // what becomes of it nobody waits for
     const bool is_over =
         still_written_.valid() &&
         still_written_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    if (is_over) still_written_ = {};  // what became of it nobody waits for
+    if (is_over) still_written_ = {};
     return;
   }
   if (still_written_.valid()) return wait_for_still();
@@ -106,6 +106,11 @@ void App::step_still() {
   } catch (const std::bad_alloc&) {
     end_still({Notice::Kind::error, "not enough memory for a still of that size; make it smaller",
                ErrorKind::memory});
+  } catch (const std::system_error& error) {
+    end_still({Notice::Kind::error,
+               std::string("the still cannot be written, for want of a thread: ") + error.what() +
+                   "; close other programs",
+               ErrorKind::memory});
   }
 }
 
@@ -123,8 +128,8 @@ void App::write_still() {
 void App::wait_for_still() {
   if (still_written_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   const Result<void> written = still_written_.get();
-  // Of one that was stopped, after which another was asked for.
-  if (!written && written.error().kind == ErrorKind::interrupted) return;
+  // Of one that was stopped, though perhaps too late, after which another was asked for.
+  if (stops_still_) return;
   end_still(written ? Notice{Notice::Kind::done, "saved " + in_quotes(still_path_.string())}
                     : notice_of(written.error()));
 }

@@ -26,7 +26,7 @@ void add_reference(const std::filesystem::path& file, UiState& ui) {
     const double side =
         std::max(std::abs(dot(all.size(), axes.right)), std::abs(dot(all.size(), axes.up)));
     const double longer = std::max(image.pixels->width, image.pixels->height);
-    image.width_mm = side * image.pixels->width / longer;
+    image.width_mm = std::max(kLeastReferenceWidthMm, side * image.pixels->width / longer);
     image.right_mm = dot(all.center(), axes.right);
     image.up_mm = dot(all.center(), axes.up);
   }

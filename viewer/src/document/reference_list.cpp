@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -43,12 +45,11 @@ std::optional<double> next_number(std::string_view& line, double least, double m
 /// "VIEW RIGHT UP WIDTH OPACITY behind|over shown|hidden FILE"; nothing for another line.
 std::optional<ReferenceImage> image_of(std::string_view line, const fs::path& folder) {
   constexpr double kMost = kMaxReachMm;
-  constexpr double kLeastWidth = 1e-3;
   ReferenceImage image;
   const auto view = view_named(next_word(line));
   const auto right = next_number(line, -kMost, kMost);
   const auto up = next_number(line, -kMost, kMost);
-  const auto width = next_number(line, kLeastWidth, kMost);
+  const auto width = next_number(line, kLeastReferenceWidthMm, kMost);
   const auto opacity = next_number(line, 0.0, 1.0);
   const std::string_view place = next_word(line);
   const std::string_view seen = next_word(line);
@@ -87,12 +88,52 @@ std::string line_of(const ReferenceImage& image, const fs::path& folder) {
   return line.append((is_inside ? near : image.file).string()).append("\n");
 }
 
+/// By its first bytes, and before the file is read: success for what is no PNG, of which
+/// io::read_png knows what to say.
+Result<void> check_pixels(const fs::path& file) {
+  constexpr std::size_t kHead = 24;  // signature, length and name of the header, both sides
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  std::array<char, kHead> head{};
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(head.data(), kHead)) return {};
+  if (std::string_view(head.data(), kSignature.size()) != kSignature) return {};
+  const auto side_at = [&](std::size_t at) {
+    std::int64_t side = 0;
+    for (std::size_t n = 0; n < 4; ++n) side = side << 8 | static_cast<unsigned char>(head[at + n]);
+    return side;
+  };
+  const std::int64_t width = side_at(16);
+  const std::int64_t height = side_at(20);
+  // What is longer io::read_png refuses.
+  const bool is_long = std::max(width, height) > io::kMostPngSide;
+  if (is_long || width * height <= kMostReferencePixels) return {};
+  return Error{ErrorKind::bad_input,
+               "'" + file.string() + "' is " + std::to_string(width) + " x " +
+                   std::to_string(height) + " pixels; a reference image may have " +
+                   std::to_string(kMostReferencePixels) + ", make it smaller"};
+}
+
 Result<std::shared_ptr<const ReferencePixels>> reference_pixels(const fs::path& file) {
+  if (auto fits = check_pixels(file); !fits) return fits.error();
   auto read = io::read_png(file);
   if (!read) return read.error();
   io::ClearImage& image = read.value();
   return std::make_shared<const ReferencePixels>(
       ReferencePixels{image.width, image.height, std::move(image.rgba)});
+}
+
+/// The lines of a list; none where there is no such file.
+Result<std::vector<std::string>> lines_in(const fs::path& file) {
+  std::error_code error;
+  std::vector<std::string> lines;
+  if (fs::symlink_status(file, error).type() == fs::file_type::not_found) return lines;
+  std::ifstream in(file);
+  std::string line;
+  while (std::getline(in, line)) lines.push_back(line);
+  if (in.is_open() && !in.bad()) return lines;
+  return Error{ErrorKind::disk, "cannot read '" + file.string() +
+                                    "': it stays as it is, and reference images are not kept; "
+                                    "make it readable, or take it away"};
 }
 
 }  // namespace
@@ -105,14 +146,22 @@ fs::path references_file(const fs::path& project) {
 ReferenceList read_references(const fs::path& project) {
   ReferenceList list;
   const fs::path file = references_file(project);
-  std::ifstream in(file);
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    auto image = image_of(line, fs::absolute(project).parent_path());
+  auto lines = lines_in(file);
+  if (!lines) {
+    list.problems.push_back(lines.error());
+    return list;
+  }
+  std::error_code error;
+  const fs::path folder = fs::absolute(project, error).parent_path();
+  int number = 0;
+  for (std::string& line : lines.value()) {
+    ++number;
+    auto image = image_of(line, folder);
     if (!image) {
       list.problems.push_back(
           {ErrorKind::bad_input, file.string() + ":" + std::to_string(number) +
-                                     " names no reference image; take the line out"});
+                                     " names no reference image; mend the line or take it out"});
+      list.unread.push_back(std::move(line));
       continue;
     }
     if (auto pixels = reference_pixels(image->file)) {
@@ -125,22 +174,29 @@ ReferenceList read_references(const fs::path& project) {
   return list;
 }
 
-Result<void> write_references(const fs::path& project, const std::vector<ReferenceImage>& images) {
+Result<void> write_references(const fs::path& project, const std::vector<ReferenceImage>& images,
+                              const std::vector<std::string>& unread) {
   const fs::path file = references_file(project);
-  if (images.empty()) {
-    std::error_code error;
+  if (auto former = lines_in(file); !former) return former.error();
+  std::error_code error;
+  if (images.empty() && unread.empty()) {
     fs::remove(file, error);
     if (!error) return {};
     return Error{ErrorKind::disk, "cannot remove '" + file.string() + "': " + error.message()};
   }
-  std::error_code error;
   const fs::path folder = fs::absolute(project, error).parent_path();
   std::string lines;
   for (const ReferenceImage& image : images) lines += line_of(image, folder);
+  for (const std::string& line : unread) lines.append(line).append("\n");
   return io::replace_text(file, lines);
 }
 
 Result<ReferenceImage> reference_of(const fs::path& file, StraightView view, double width_mm) {
+  if (file.string().find('\n') != std::string::npos) {
+    return Error{ErrorKind::bad_input, "'" + file.string() +
+                                           "' has a name of more than a line, which the list of "
+                                           "references cannot keep; rename it"};
+  }
   auto pixels = reference_pixels(file);
   if (!pixels) return pixels.error();
   ReferenceImage image;

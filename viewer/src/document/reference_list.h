@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,21 +20,29 @@ std::filesystem::path references_file(const std::filesystem::path& project);
 
 struct ReferenceList {
   std::vector<ReferenceImage> images;
-  std::vector<Error> problems;  ///< of lines and images that could not be read
+  std::vector<std::string> unread;  ///< lines that name no image, without their ends
+  std::vector<Error> problems;      ///< of lines and images that could not be read
 };
 
 /// Those of a project, their pixels read; none where it has no such file. An image that cannot be
-/// read stays in the list without pixels: it may be back the next time.
+/// read stays in the list without pixels: it may be back the next time. A list that cannot be read
+/// is a problem.
 ReferenceList read_references(const std::filesystem::path& project);
 
-/// Replaces the file whole; removes it where there is none to keep. Files in the project's folder
-/// are named by their place in it, so that the folder can be moved.
-/// Errors  disk.
+/// Replaces the file whole; removes it where there is nothing to keep. Files in the project's
+/// folder are named by their place in it, so that the folder can be moved. `unread` are further
+/// lines, of ReferenceList::unread: they may be of a newer version, or mistyped, and follow the
+/// images. Errors  disk, also where there is a file that cannot be read, which stays.
 Result<void> write_references(const std::filesystem::path& project,
-                              const std::vector<ReferenceImage>& images);
+                              const std::vector<ReferenceImage>& images,
+                              const std::vector<std::string>& unread = {});
+
+/// The most pixels of a reference image: the window waits while they are read.
+inline constexpr std::int64_t kMostReferencePixels = 12'500'000;
 
 /// Another image of a file, with its pixels, as wide as `width_mm`.
-/// Errors  as io::read_png.
+/// Errors  as io::read_png; bad_input: more pixels than kMostReferencePixels, or a file's name of
+///         more than a line.
 Result<ReferenceImage> reference_of(const std::filesystem::path& file, StraightView view,
                                     double width_mm);
 

@@ -44,10 +44,8 @@ Result<GlReferences> GlReferences::make(ObjectCount& count) {
 }
 
 void GlReferences::take(ObjectCount& count, const std::vector<ReferenceMark>& marks) {
-  std::erase_if(textures_, [&](const auto& kept) {
-    return std::none_of(marks.begin(), marks.end(),
-                        [&](const ReferenceMark& mark) { return mark.pixels.get() == kept.first; });
-  });
+  // First: another image may have the address of one that is gone.
+  std::erase_if(textures_, [](const auto& kept) { return kept.second.pixels.expired(); });
   for (const ReferenceMark& mark : marks) {
     assert(mark.pixels && mark.pixels->width > 0 && mark.pixels->height > 0);
     if (textures_.contains(mark.pixels.get())) continue;

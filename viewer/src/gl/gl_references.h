@@ -14,13 +14,13 @@
 
 namespace argil::viewer {
 
-/// Draws reference images. Each is uploaded when a picture first shows it, and kept until pictures
-/// no longer name it.
+/// Draws reference images. Each is uploaded when a picture first shows it, and kept while anything
+/// has its pixels: a view that is looked into again does not wait for them.
 class GlReferences {
  public:
   static Result<GlReferences> make(ObjectCount& count);
 
-  /// Uploads what is new, and forgets what is not there: once a picture.
+  /// Uploads what is new, and forgets what nothing has any more: once a picture.
   void take(ObjectCount& count, const std::vector<ReferenceMark>& marks);
   /// Those behind the clay, or those over it, whatever is in front. What blends is the picture's
   /// own colour, without a depth.
@@ -28,7 +28,7 @@ class GlReferences {
 
  private:
   struct Kept {
-    std::shared_ptr<const ReferencePixels> pixels;  ///< so that no other has its address
+    std::weak_ptr<const ReferencePixels> pixels;
     GlTexture texture;
   };
   GlProgram program_;

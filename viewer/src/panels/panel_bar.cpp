@@ -59,6 +59,8 @@ bool is_on(Command command, const UiState& ui) {
       return ui.panels.has_info;
     case Command::print:
       return ui.panels.has_print;
+    case Command::references:
+      return ui.panels.has_references;
     case Command::device:
       return ui.panels.has_haptics;
     case Command::measure_distance:

@@ -34,7 +34,6 @@ std::vector<std::string> view_titles() {
 /// One of the list, its labels told apart by its number; true when it shall go.
 bool draw_reference(ReferenceImage& image, const std::string& number_text) {
   constexpr double kMostMm = 1e6;
-  constexpr double kLeastWidthMm = 0.001;
   const auto label = [&](const char* what) { return what + ("##ref" + number_text); };
   check(label("Show").c_str(), image.is_visible);
   ImGui::SameLine();
@@ -49,7 +48,7 @@ bool draw_reference(ReferenceImage& image, const std::string& number_text) {
   if (pick_one(label("View").c_str(), view, view_titles())) {
     image.view = static_cast<StraightView>(view);
   }
-  number(label("Width, mm").c_str(), image.width_mm, kLeastWidthMm, kMostMm, "%.2f");
+  number(label("Width, mm").c_str(), image.width_mm, kLeastReferenceWidthMm, kMostMm, "%.2f");
   number(label("To the right, mm").c_str(), image.right_mm, -kMostMm, kMostMm, "%.2f");
   number(label("Up, mm").c_str(), image.up_mm, -kMostMm, kMostMm, "%.2f");
   slide(label("Opacity").c_str(), image.opacity, 0.0, 1.0, "%.2f");

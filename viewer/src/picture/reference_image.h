@@ -38,6 +38,8 @@ struct ReferencePixels {
   std::vector<std::uint8_t> rgba;
 };
 
+inline constexpr double kLeastReferenceWidthMm = 1e-3;
+
 /// An image to sculpt by, which is shown while the camera looks in its view: behind the clay, or
 /// over it. It stands in the plane through the sculpture's origin.
 struct ReferenceImage {
@@ -45,7 +47,7 @@ struct ReferenceImage {
   StraightView view = StraightView::front;
   double right_mm = 0.0;  ///< of its middle from the origin, as the view sees it
   double up_mm = 0.0;
-  double width_mm = 100.0;  ///< above 0; its height follows from its pixels
+  double width_mm = 100.0;  ///< at least kLeastReferenceWidthMm; its height follows from its pixels
   double opacity = 0.6;     ///< 0 to 1
   bool is_over = false;
   bool is_visible = true;
