@@ -231,8 +231,8 @@ std::string edit_text(const Json& json, const std::string& levels,
             grouped(one["changed_leaves"].get<std::int64_t>()) + " leaves changed in " +
             number(one["seconds"].get<double>()) + " s\n";
   }
-  return text + levels + "hash " + json["hash"].get<std::string>() +
-         "\nsaved '" + output.string() + "'\n";
+  return text + levels + "hash " + json["hash"].get<std::string>() + "\nsaved '" + output.string() +
+         "'\n";
 }
 
 Result<void> check_files(const EditOptions& options) {
