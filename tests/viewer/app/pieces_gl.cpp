@@ -132,8 +132,8 @@ TEST_F(ViewPiecesGl, NumbersOfThePanelScaleThePieceToTheMillimetre) {
   EXPECT_NEAR(box.size().x, before.size().x * 50.0 / before.size().z, 1e-3);
   const double foot = sculpture.look(0).placement.position_mm.z + box.min.z;
   EXPECT_NEAR(foot, before.min.z, 1e-4) << "what stands on the bed stays there";
-  const Sculpture half = sculpted("key Ctrl+P\nframes 3\n" + type("Scale, %", "50") +
-                                  "shot half.png\nframes 2\n");
+  const Sculpture half =
+      sculpted("key Ctrl+P\nframes 3\n" + type("Scale, %", "50") + "shot half.png\nframes 2\n");
   EXPECT_NEAR(surface_bounds_mm(half.clay(0)).size().z, 25.0, 1e-4);
 }
 
