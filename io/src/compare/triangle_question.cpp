@@ -24,14 +24,19 @@ bool has_area(const mesh::Corners& c) noexcept {
   return length(mesh::area_normal(c)) > kLeastShape * side * side;
 }
 
-/// Of unit length; of a triangle without an area to speak of any across its longest side.
-Vec3 unit_normal(const mesh::Corners& c) noexcept {
-  if (has_area(c)) return normalized(mesh::area_normal(c));
+Vec3 longest_way(const mesh::Corners& c) noexcept {
   Vec3 longest;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 along = c[(k + 1) % 3] - c[k];
     if (dot(along, along) > dot(longest, longest)) longest = along;
   }
+  return longest;
+}
+
+/// Of unit length; of a triangle without an area to speak of any across its longest side.
+Vec3 unit_normal(const mesh::Corners& c) noexcept {
+  if (has_area(c)) return normalized(mesh::area_normal(c));
+  const Vec3 longest = longest_way(c);
   const Vec3 size{std::abs(longest.x), std::abs(longest.y), std::abs(longest.z)};
   if (size.x <= std::min(size.y, size.z)) return normalized(cross(longest, {1.0, 0.0, 0.0}));
   if (size.y <= size.z) return normalized(cross(longest, {0.0, 1.0, 0.0}));
@@ -48,13 +53,13 @@ TriangleQuestion::TriangleQuestion(double bound_mm, double voxel_mm, FieldSample
 void TriangleQuestion::take(const mesh::Corners& corners) {
   corners_ = corners;
   normal_ = unit_normal(corners);
+  is_sliver_ = !has_area(corners);
   box_ = {};
   off_mm_ = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     box_.include(corners[k]);
     off_mm_ = std::max(off_mm_, std::abs(dot(normal_, corners[k] - corners[0])));
-    // No side tells of a sliver: its normal may be that of the other order of its corners.
-    inward_[k] = has_area(corners) ? cross(normal_, corners[(k + 1) % 3] - corners[k]) : Vec3{};
+    inward_[k] = cross(normal_, corners[(k + 1) % 3] - corners[k]);
   }
 }
 
@@ -82,12 +87,28 @@ bool TriangleQuestion::is_cell_near(const CellIndex& index) {
 bool TriangleQuestion::may_pass(const Vec3& middle_mm, const Vec3& half_mm) const {
   const Vec3 from = middle_mm - corners_[0];
   if (std::abs(dot(normal_, from)) > half_width(normal_, half_mm) + off_mm_) return false;
+  // No side tells of a sliver: its normal may be that of the other order of its corners.
+  if (is_sliver_) return may_pass_sliver(middle_mm, half_mm);
   for (std::size_t k = 0; k < 3; ++k) {
     const double within = dot(inward_[k], middle_mm - corners_[k]);
     const double rounding = 1e-12 * dot(inward_[k], inward_[k]);
     if (within + half_width(inward_[k], half_mm) < -rounding) return false;
   }
   return true;
+}
+
+/// By the three sides, none of which a sliver leaves by more than it is thick.
+bool TriangleQuestion::may_pass_sliver(const Vec3& middle_mm, const Vec3& half_mm) const {
+  constexpr double kThick = 1e-8;  // of its length
+  const double reach = length(half_mm) + kThick * length(longest_way(corners_));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 along = corners_[(k + 1) % 3] - corners_[k];
+    const double square = dot(along, along);
+    const Vec3 from = middle_mm - corners_[k];
+    const double part = square > 0.0 ? std::clamp(dot(from, along) / square, 0.0, 1.0) : 0.0;
+    if (length(from - part * along) <= reach) return true;
+  }
+  return false;
 }
 
 bool TriangleQuestion::is_box_near(const Around& at, const Vec3& middle_mm,

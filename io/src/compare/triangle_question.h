@@ -47,6 +47,7 @@ class TriangleQuestion {
   bool is_cell_near(const CellIndex& index);
   bool is_box_near(const Around& at, const Vec3& middle_mm, const Vec3& half_mm) const;
   bool may_pass(const Vec3& middle_mm, const Vec3& half_mm) const;
+  bool may_pass_sliver(const Vec3& middle_mm, const Vec3& half_mm) const;
 
   double bound_mm_;
   double voxel_mm_;
@@ -54,9 +55,10 @@ class TriangleQuestion {
   // Of the triangle that is asked for.
   Box3 box_;
   std::array<Vec3, 3> corners_;
+  bool is_sliver_ = false;      ///< its area tells no normal
   Vec3 normal_;                 ///< of unit length, or 0
   double off_mm_ = 0.0;         ///< how far rounding takes the corners from the plane
-  std::array<Vec3, 3> inward_;  ///< along the plane and normal to the side from each corner; or 0
+  std::array<Vec3, 3> inward_;  ///< along the plane and normal to the side from each corner
 };
 
 }  // namespace argil::io
