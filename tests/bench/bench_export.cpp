@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a large export takes, step by step: CPU and wall time and the most memory that was held
 // above what the clay itself holds. Prints a markdown table with the error beside the time; of
-// several runs the medians. Usage: bench_export [millions of triangles [file [runs]]]; default 1,
-// argil_bench_export.3mf in
-//        the folder for temporary files, and 1; 10 takes three minutes
+// several runs the medians. Usage: bench_export [millions of triangles [file [runs]]]; the
+// default is 1, argil_bench_export.3mf in the folder for temporary files, and 1 run; 10 million
+// take three minutes
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -27,8 +27,8 @@
 #include "argil/haptics/servo/recording.h"
 
 #include "command_line.h"
-#include "document/settings.h"
 #include "file/file_seal.h"
+#include "settings/settings.h"
 
 namespace argil::torture {
 namespace {

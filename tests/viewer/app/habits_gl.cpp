@@ -14,8 +14,8 @@
 
 #include "commands/brush_preset.h"
 #include "commands/command.h"
-#include "commands/key_file.h"
-#include "document/settings.h"
+#include "keys/key_file.h"
+#include "settings/settings.h"
 #include "support/scratch.h"
 #include "viewer/support/picture_alike.h"
 #include "viewer/support/window_run.h"

@@ -10,7 +10,7 @@
 #include "argil/io/png.h"
 #include "argil/io/project_file.h"
 
-#include "document/reference_list.h"
+#include "settings/reference_list.h"
 #include "viewer/support/picture_alike.h"
 #include "viewer/support/window_run.h"
 

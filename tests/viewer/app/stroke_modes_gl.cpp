@@ -9,7 +9,7 @@
 
 #include "argil/io/project_file.h"
 
-#include "document/settings.h"
+#include "settings/settings.h"
 #include "viewer/support/window_run.h"
 
 namespace argil {

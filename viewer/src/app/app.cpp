@@ -19,10 +19,10 @@
 #include "commands/measure_marks.h"
 #include "commands/piece_gestures.h"
 #include "document/document.h"
-#include "document/printer_list.h"
 #include "haptics/felt_tool.h"
 #include "panels/layout.h"
 #include "picture/stereo.h"
+#include "settings/printer_list.h"
 
 namespace argil::viewer {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "app/app.h"
 #include "base/text.h"
-#include "commands/key_file.h"
 #include "commands/preset_choice.h"
 #include "document/document.h"
-#include "document/settings.h"
+#include "keys/key_file.h"
+#include "settings/settings.h"
 
 namespace argil::viewer {
 

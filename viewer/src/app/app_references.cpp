@@ -10,8 +10,8 @@
 #include "base/text.h"
 #include "commands/brush_preset.h"
 #include "commands/command.h"
-#include "document/alpha_list.h"
-#include "document/reference_list.h"
+#include "settings/alpha_list.h"
+#include "settings/reference_list.h"
 
 namespace argil::viewer {
 

@@ -17,8 +17,8 @@
 #include "argil/io/safe_file.h"
 #include "argil/io/settings_file.h"
 
-#include "commands/unread_file.h"
 #include "document/tool_info.h"
+#include "settings/unread_file.h"
 
 namespace argil::viewer {
 namespace {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "commands/command_info.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
+#include "keys/command_info.h"
 
 namespace argil::viewer {
 

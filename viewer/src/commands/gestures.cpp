@@ -12,8 +12,8 @@
 #include "commands/command_search.h"
 #include "commands/key_choice.h"
 #include "commands/measure.h"
-#include "commands/mouse_habit.h"
 #include "commands/preset_choice.h"
+#include "keys/mouse_habit.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {

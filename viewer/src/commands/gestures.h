@@ -4,12 +4,12 @@
 #include <functional>
 #include <optional>
 
-#include "commands/clutch_key.h"
 #include "commands/measure_gestures.h"
 #include "commands/piece_gestures.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
 #include "input/input_event.h"
+#include "keys/clutch_key.h"
 #include "picture/surface_probe.h"
 
 namespace argil::viewer {

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "commands/command_info.h"
+#include "keys/command_info.h"
 
 namespace argil::viewer {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "document/reference_list.h"
+#include "settings/reference_list.h"
 
 namespace argil::viewer {
 

@@ -3,17 +3,11 @@
 
 #include <cstddef>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "document/tool_info.h"
+#include "keys/key_map.h"
 
 namespace argil::viewer {
-
-enum class Command;
-
-/// What the search finds and a key does: a command, or a tool to be chosen.
-using KeyAim = std::variant<Command, const ToolInfo*>;
 
 /// What the window remembers of the search.
 struct SearchChoice {

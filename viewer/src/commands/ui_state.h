@@ -20,13 +20,11 @@
 #include "commands/brush.h"
 #include "commands/brush_preset.h"
 #include "commands/import_choice.h"
-#include "commands/key_map.h"
 #include "commands/measure.h"
 #include "commands/outline.h"
 #include "commands/search_choice.h"
-#include "document/alpha_list.h"
 #include "document/document_thread.h"
-#include "document/settings.h"
+#include "keys/key_map.h"
 #include "picture/camera.h"
 #include "picture/gizmo.h"
 #include "picture/reference_image.h"
@@ -34,6 +32,8 @@
 #include "picture/slice_chord.h"
 #include "picture/stereo.h"
 #include "picture/still.h"
+#include "settings/alpha_list.h"
+#include "settings/settings.h"
 
 namespace argil::viewer {
 

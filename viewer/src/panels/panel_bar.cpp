@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 #include "commands/command.h"
-#include "commands/mouse_habit.h"
+#include "keys/mouse_habit.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"

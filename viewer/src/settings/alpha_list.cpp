@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "document/alpha_list.h"
+#include "settings/alpha_list.h"
 
 #include <algorithm>
 #include <cassert>

@@ -9,7 +9,7 @@
 #include "argil/core/result.h"
 
 #include "base/theme.h"
-#include "document/pressure_curve.h"
+#include "settings/pressure_curve.h"
 
 namespace argil::viewer {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "document/reference_list.h"
+#include "settings/reference_list.h"
 
 #include <cstddef>
 #include <cstdint>

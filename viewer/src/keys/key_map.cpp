@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/key_map.h"
+#include "keys/key_map.h"
 
 #include <algorithm>
 #include <cassert>
 #include <iterator>
 #include <variant>
 
-#include "commands/clutch_key.h"
-#include "commands/command_info.h"
 #include "document/tool_info.h"
+#include "keys/clutch_key.h"
+#include "keys/command_info.h"
 
 namespace argil::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/key_map.h"
+#include "keys/key_map.h"
 
 #include <fstream>
 #include <iterator>

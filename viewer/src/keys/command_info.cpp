@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/command_info.h"
+#include "keys/command_info.h"
 
 #include <cassert>
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace {
 constexpr CommandInfo kCommands[] = {
 #define ARGIL_COMMAND(name, menu, title, key, blender, zbrush) \
   {Command::name, #name, menu, title, {key, blender, zbrush}},
-#include "commands/command_rows.h"
+#include "keys/command_rows.h"
 };
 
 }  // namespace

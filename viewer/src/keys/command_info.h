@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "commands/key_set.h"
+#include "keys/key_set.h"
 
 namespace argil::viewer {
 
@@ -12,7 +12,7 @@ namespace argil::viewer {
 /// (command.h) does them.
 enum class Command {
 #define ARGIL_COMMAND(name, ...) name,
-#include "commands/command_rows.h"
+#include "keys/command_rows.h"
 };
 
 /// A row of the table (command_rows.h).

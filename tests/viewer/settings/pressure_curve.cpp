@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "document/pressure_curve.h"
+#include "settings/pressure_curve.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "document/settings.h"
+#include "settings/settings.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/unread_file.h"
+#include "settings/unread_file.h"
 
 #include <string>
 #include <system_error>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The palette of images: those of the program, those of a person, and what is no image.
-#include "document/alpha_list.h"
+#include "settings/alpha_list.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "document/pressure_curve.h"
+#include "settings/pressure_curve.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/mouse_habit.h"
+#include "keys/mouse_habit.h"
 
 #include <gtest/gtest.h>
 

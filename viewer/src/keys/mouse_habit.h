@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "commands/key_map.h"
 #include "input/input_event.h"
+#include "keys/key_map.h"
 
 namespace argil::viewer {
 

@@ -5,13 +5,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
-#include "commands/key_set.h"
-#include "commands/search_choice.h"
+#include "document/tool_info.h"
 #include "input/key_name.h"
+#include "keys/command_info.h"
+#include "keys/key_set.h"
 
 namespace argil::viewer {
+
+/// What a key does, and the search finds: a command, or a tool to be chosen.
+using KeyAim = std::variant<Command, const ToolInfo*>;
 
 /// Which key does which command and chooses which tool: those of a set, and before them what the
 /// user chose. Each has one key at most, and no key does two things.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "document/printer_list.h"
+#include "settings/printer_list.h"
 
 #include <algorithm>
 #include <fstream>

@@ -5,7 +5,7 @@
 
 #include "argil/core/result.h"
 
-#include "commands/key_map.h"
+#include "keys/key_map.h"
 
 namespace argil::viewer {
 

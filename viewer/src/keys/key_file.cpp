@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/key_file.h"
+#include "keys/key_file.h"
 
 #include <algorithm>
 #include <map>
@@ -12,8 +12,8 @@
 #include "argil/io/safe_file.h"
 #include "argil/io/settings_file.h"
 
-#include "commands/command_info.h"
-#include "commands/unread_file.h"
+#include "keys/command_info.h"
+#include "settings/unread_file.h"
 
 namespace argil::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/key_file.h"
+#include "keys/key_file.h"
 
 #include <filesystem>
 #include <string>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "commands/command.h"
-#include "commands/unread_file.h"
+#include "settings/unread_file.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {
