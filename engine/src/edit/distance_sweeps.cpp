@@ -32,9 +32,10 @@ struct Leaf {
   NodeRows anew;
   NodeRows plain{};  ///< solved by first differences only
   std::array<LeafValues, 2> values;
-  std::size_t now = 0;          ///< which of these is read
-  std::uint64_t moved = 0;      ///< rows in which the last sweep moved a node
-  std::uint64_t swept = ~0ULL;  ///< rows of the next sweep
+  std::size_t now = 0;       ///< which of these is read
+  std::uint64_t solves = 0;  ///< rows with a node that is not kept
+  std::uint64_t moved = 0;   ///< rows in which the last sweep moved a node
+  std::uint64_t swept = 0;   ///< rows of the next sweep
   /// Around it: the values of leaves that stay as they are; where null, the index of one that is
   /// solved too.
   std::array<const float*, kHaloLeaves> stays{};
@@ -62,6 +63,14 @@ NodeRows rows_of(const NodeFlags& flags) {
   NodeRows rows{};
   for (std::size_t n = 0; n < kLeafNodes; ++n) {
     rows[n / kLeafSide] |= static_cast<std::uint8_t>(flags.is_set[n] << n % kLeafSide);
+  }
+  return rows;
+}
+
+std::uint64_t rows_not_all(const NodeRows& kept) noexcept {
+  std::uint64_t rows = 0;
+  for (std::size_t row = 0; row < kept.size(); ++row) {
+    rows |= std::uint64_t{kept[row] != 0xff ? 1U : 0U} << row;
   }
   return rows;
 }
@@ -139,6 +148,8 @@ class Sweeps {
     set_flags(leaf.anew, anew);
     row_loops().seed(block, anew, voxel_, kept, leaf.values[0].data());
     leaf.kept = rows_of(kept);
+    leaf.solves = rows_not_all(leaf.kept);
+    leaf.swept = leaf.solves;
   }
 
   void sweep(Leaf& leaf, bool takes_second_differences) const {
@@ -162,8 +173,10 @@ class Sweeps {
       const auto moved_at = [&](std::size_t around) -> std::uint64_t {
         return leaf.stays[around] == nullptr ? leaves_[leaf.solved[around]].moved : 0;
       };
-      leaf.swept = rows_reading(leaf.moved, moved_at(1), moved_at(2), moved_at(3), moved_at(4)) |
-                   moved_at(5) | moved_at(6);
+      const std::uint64_t reading =
+          rows_reading(leaf.moved, moved_at(1), moved_at(2), moved_at(3), moved_at(4)) |
+          moved_at(5) | moved_at(6);
+      leaf.swept = reading & leaf.solves;
     }
   }
 

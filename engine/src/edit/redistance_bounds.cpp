@@ -53,9 +53,8 @@ void insert_with_neighbours(LeafSet& set, int level, const Coord& origin) {
   }
 }
 
-/// Those of the leaves that are stored and out of bounds. Sorted.
-LeafList out_of_bounds_of(const LevelStack& stack, const LeafSet& set) {
-  LeafList leaves = set.list();
+/// Those of the leaves that are stored and out of bounds, in their order.
+LeafList out_of_bounds_of(const LevelStack& stack, const LeafList& leaves) {
   std::vector<std::uint8_t> is_out(leaves.size(), 0);
   for_each_leaf(leaves.size(), [&](std::size_t n) {
     const auto& [level, origin] = leaves[n];
@@ -111,7 +110,7 @@ bool out_of_gradient_bounds(const LevelStack& stack, int level, const Coord& ori
 /// Leaves within reach take part as well: the solution must join what they hold.
 LeafList redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
   const LevelStack& stack = target.stack;
-  LeafList found = out_of_bounds_of(stack, affected_by(stack, touched));
+  LeafList found = out_of_bounds_of(stack, affected_by(stack, touched).list());
   if (found.empty()) return found;
   Edit edit(target);
   std::vector<std::vector<Coord>> due(static_cast<std::size_t>(stack.count()));
@@ -139,7 +138,7 @@ LeafList redistance_out_of_bounds(EditTarget& target, const LeafList& touched) {
 LeafList leaves_out_of_bounds(const LevelStack& stack, const LeafList& leaves) {
   LeafSet all(stack.count());
   for (const auto& [level, origin] : leaves) insert_with_neighbours(all, level, origin);
-  return out_of_bounds_of(stack, all);
+  return out_of_bounds_of(stack, all.list());
 }
 
 bool redistance_until_in_bounds(EditTarget& target, LeafList& touched, const Progress& progress) {
@@ -175,7 +174,7 @@ bool redistance_levels(LevelStack& stack, double tolerance_mm, const Progress& p
   EditMemory memory;
   EditTarget target{stack, memory, tolerance_mm, [](const LeafChange&, const float*, float) {},
                     std::numeric_limits<std::int64_t>::max()};
-  LeafList touched = leaves_out_of_bounds(stack, all_leaves(stack));
+  LeafList touched = out_of_bounds_of(stack, all_leaves(stack));
   if (touched.empty()) return true;
   if (!redistance_until_in_bounds(target, touched, progress)) return false;
   prune(target, touched);

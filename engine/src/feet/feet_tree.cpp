@@ -168,6 +168,16 @@ void FeetTree::collect(const Vec3& center_mm, double half_mm, float least_mm, fl
 
 namespace {
 
+/// Within what distance all places of a cube certainly have some point of the boxes.
+float bound_of(const ClusterSquares& squares) noexcept {
+  return std::sqrt(*std::ranges::min_element(squares.farthest)) * kRounding;
+}
+
+/// Whether a box is farther than `reach`; some that are by less than rounding may do are not told.
+bool is_surely_beyond(float nearest_square, float reach) noexcept {
+  return nearest_square > reach * reach * kRounding * kRounding;
+}
+
 /// How near and how far boxes are, as RowLoops tells it, with no shell to regard.
 ClusterSquares squares_of(const ClusterBoxes& boxes, const Vec3& offset, float half) {
   constexpr float kFar = 1e30F;
@@ -192,17 +202,22 @@ void FeetTree::visit(const Branch& branch, Search& search) const {
   Found& found = search.found;
   const ClusterSquares squares =
       squares_of(branch.boxes, branch.at_mm - search.center_mm, search.half);
+  found.bound_mm = std::min(found.bound_mm, bound_of(squares));
   std::array<std::size_t, kChildren> order;
   std::array<float, kChildren> nearest;
+  std::size_t count = 0;
   for (std::size_t n = 0; n < kChildren; ++n) {
+    if (is_surely_beyond(squares.nearest[n], found.bound_mm * kRounding + branch.apart[n])) {
+      continue;
+    }
     nearest[n] = std::sqrt(squares.nearest[n]) - branch.apart[n];
-    found.bound_mm = std::min(found.bound_mm, std::sqrt(squares.farthest[n]) * kRounding);
-    std::size_t at = n;
+    std::size_t at = count++;
     for (; at > 0 && nearest[order[at - 1]] > nearest[n]; --at) order[at] = order[at - 1];
     order[at] = n;
   }
-  for (const std::size_t n : order) {
-    found.is_near = found.is_near || found.bound_mm < search.least_mm;
+  found.is_near = found.is_near || found.bound_mm < search.least_mm;
+  for (std::size_t at = 0; at < count; ++at) {
+    const std::size_t n = order[at];
     if (found.is_near || !(nearest[n] <= found.bound_mm * kRounding)) return;
     const std::size_t child = branch.first + n;
     if (branch.has_leaves) {
@@ -210,6 +225,7 @@ void FeetTree::visit(const Branch& branch, Search& search) const {
     } else {
       visit(branches_[child], search);
     }
+    found.is_near = found.is_near || found.bound_mm < search.least_mm;
   }
 }
 
@@ -220,12 +236,11 @@ void FeetTree::take(const PlacedFeet& feet, Search& search) const {
   const auto level = static_cast<std::size_t>(feet.level);
   const Vec3 offset = feet.origin_mm - search.center_mm;
   const ClusterSquares squares = squares_of(layer.surface, offset, search.half);
-  for (const float farthest : squares.farthest) {
-    found.bound_mm = std::min(found.bound_mm, std::sqrt(farthest) * kRounding);
-  }
+  found.bound_mm = std::min(found.bound_mm, bound_of(squares));
   for (std::size_t n = 0; n < kChildren; ++n) {
-    const float nearest = std::sqrt(squares.nearest[n]) - apart_mm_[level];
-    if (!(nearest <= found.bound_mm * kRounding)) continue;
+    const float reach = found.bound_mm * kRounding;
+    if (is_surely_beyond(squares.nearest[n], reach + apart_mm_[level])) continue;
+    if (!(std::sqrt(squares.nearest[n]) - apart_mm_[level] <= reach)) continue;
     const int begin = layer.first[n];
     found.lists[level].append({layer.values.data() + begin,
                                layer.count(),

@@ -120,13 +120,15 @@ LevelReader::Reading read_with_faces(LevelReader& reader, int level, const Coord
   return reading;
 }
 
-LeafLayers find_layers(const LeafAndFaces& values, double voxel_mm, bool is_average) {
+LeafLayers find_layers(const LeafAndFaces& values, double voxel_mm, bool is_average,
+                       const std::array<bool, 2>& wanted) {
   const auto voxel = static_cast<float>(voxel_mm);
   LayerRule rule{};
   rule.voxel = voxel;
   rule.band = static_cast<float>(kHalfWidthVoxels) * voxel;
   rule.layer = static_cast<float>(kLayerVoxels);
   rule.averaged = is_average ? kAveraged * voxel * voxel : 0.0F;
+  for (std::size_t side = 0; side < 2; ++side) rule.is_wanted[side] = wanted[side];
   LayerPoints points;
   row_loops().project_to_layers(values.data(), rule, points);
   return {joined(points, 0), joined(points, 1)};

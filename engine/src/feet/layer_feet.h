@@ -72,8 +72,9 @@ LevelReader::Reading read_with_faces(LevelReader& reader, int level, const Coord
 /// The points of both layers near the nodes of a leaf. A node whose cube the layer crosses gives
 /// one: its projection along the gradient, with the layer's normal and mean curvature there.
 /// `is_average`: the layer is moved back by what averaging moved it, for levels that stand in for a
-/// finer one.
+/// finer one. A side that is not `wanted` stays empty.
 /// Cost     25 to 45 ns for each point.
-LeafLayers find_layers(const LeafAndFaces& values, double voxel_mm, bool is_average);
+LeafLayers find_layers(const LeafAndFaces& values, double voxel_mm, bool is_average,
+                       const std::array<bool, 2>& wanted = {true, true});
 
 }  // namespace argil

@@ -251,11 +251,10 @@ SideFeet LevelFeet::of_leaf(const Coord& origin) {
   LeafAndFaces values;
   if (read_with_faces(reader_, level_, origin, values).is_far) return out;
   const bool is_average = level_ > 0 && has_child(reader_.stack(), level_, origin);
-  LeafLayers layers = find_layers(values, voxel_, is_average);
-  if (layers[0].is_empty() && layers[1].is_empty()) return out;
+  LeafLayers layers = find_layers(values, voxel_, is_average, sides_);
   for (std::size_t side = 0; side < 2; ++side) {
     LayerFeet& layer = layers[side];
-    if (layer.is_empty() || !sides_[side]) continue;
+    if (layer.is_empty()) continue;
     const SpokenFor::Part spoken = below(origin, layer.all_surface);
     if (spoken == SpokenFor::Part::none) continue;
     const bool is_whole = spoken == SpokenFor::Part::all;

@@ -80,6 +80,7 @@ class Rebuilder {
   double tolerance_mm_;
   std::unique_ptr<LevelStack> stack_;
   std::vector<std::unique_ptr<MovedLevel>> moved_;  ///< of the levels that were filled
+  std::vector<LeafValues> values_;  ///< of leaves filled at once: memory for them is asked for once
 };
 
 Result<Box3> Rebuilder::checked_bounds() const {
@@ -141,7 +142,8 @@ bool Rebuilder::fill(int level, const Origins& origins, Keep keep) {
     const double done = static_cast<double>(begin) / static_cast<double>(origins.size());
     if (progress_ && !progress_("distance", done)) return false;
     const std::size_t count = std::min(kLeavesAtOnce, origins.size() - begin);
-    std::vector<LeafValues> values(count);
+    std::vector<LeafValues>& values = values_;
+    values.resize(std::max(values.size(), count));
     std::vector<std::uint8_t> kept(count, 0);
     for_each_leaf(count, [&](std::size_t n) {
       const Coord& origin = origins[begin + n];

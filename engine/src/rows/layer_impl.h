@@ -22,6 +22,55 @@ ARGIL_ROWS unsigned lane_bits(const EightInts& lanes) {
 #endif
 }
 
+#if defined(__AVX2__)
+/// For eight bits the lanes of those that are set, in order, and then any.
+struct LaneOrders {
+  unsigned char lane[256][kRowNodes];
+  constexpr LaneOrders() : lane() {
+    for (unsigned bits = 0; bits < 256; ++bits) {
+      unsigned count = 0;
+      for (unsigned n = 0; n < kRowNodes; ++n) {
+        if ((bits >> n & 1U) != 0) lane[bits][count++] = static_cast<unsigned char>(n);
+      }
+    }
+  }
+};
+constexpr LaneOrders kLaneOrders;
+
+ARGIL_ROWS void order_of(unsigned bits, EightInts& out) {
+  using EightBytes = unsigned char __attribute__((vector_size(8)));
+  EightBytes order;
+  __builtin_memcpy(&order, kLaneOrders.lane[bits], sizeof order);
+  out = __builtin_convertvector(order, EightInts);
+}
+#endif
+
+/// Writes the lanes whose bits are set one after the other; up to eight numbers at `to` change.
+ARGIL_ROWS void put_lanes(const EightFloats& lanes, unsigned bits, float* to) {
+#if defined(__AVX2__)
+  EightInts order;
+  order_of(bits, order);
+  const EightFloats packed = __builtin_ia32_permvarsf256(lanes, order);
+  __builtin_memcpy(to, &packed, sizeof packed);
+#else
+  float all[kRowNodes];
+  __builtin_memcpy(all, &lanes, sizeof all);
+  for (; bits != 0; bits &= bits - 1) *to++ = all[__builtin_ctz(bits)];
+#endif
+}
+
+/// Writes the numbers of those lanes, the first of which is `first`.
+ARGIL_ROWS void put_numbers(int first, unsigned bits, int* to) {
+#if defined(__AVX2__)
+  EightInts order;
+  order_of(bits, order);
+  order += first;
+  __builtin_memcpy(to, &order, sizeof order);
+#else
+  for (; bits != 0; bits &= bits - 1) *to++ = first + __builtin_ctz(bits);
+#endif
+}
+
 /// A foot's number in a job, from those of its cluster and in it.
 ARGIL_ROWS int number_of(int cluster, int n) { return cluster * LayerPoints::kMost + n; }
 
@@ -175,8 +224,7 @@ ARGIL_ROWS unsigned candidate_clusters(const LayerJob& job, int n, const BlockCu
   return lane_bits(least - square <= kRoundedSquares * (terms + square));
 }
 
-/// Keeps those of eight feet of a cluster, the first `n`, that candidate_clusters() means, one by
-/// one.
+/// Keeps those of eight feet of a cluster, the first `n`, that candidate_clusters() means.
 ARGIL_ROWS int keep_of_eight(const LayerJob& job, int cluster, int n, const BlockCube& block,
                              const float* pivot, float square, float most, int kept) {
   EightFloats places[3];
@@ -193,17 +241,11 @@ ARGIL_ROWS int keep_of_eight(const LayerJob& job, int cluster, int n, const Bloc
   const EightInts is_candidate =
       (squares - square <= (2.0F * block.half) * across + kRoundedSquares * squares) &
       (squares <= most * most * (1.0F + kRoundedSquares));
-  unsigned bits = lane_bits(is_candidate);
+  const unsigned bits = lane_bits(is_candidate);
   if (bits == 0) return kept;
-  float lanes[3][kRowNodes];
-  __builtin_memcpy(lanes, places, sizeof lanes);
-  while (bits != 0) {
-    const int lane = __builtin_ctz(bits);
-    bits &= bits - 1;
-    for (int axis = 0; axis < 3; ++axis) job.kept[axis][kept] = lanes[axis][lane];
-    job.which[kept++] = number_of(cluster, n + lane);
-  }
-  return kept;
+  for (int axis = 0; axis < 3; ++axis) put_lanes(places[axis], bits, job.kept[axis] + kept);
+  put_numbers(number_of(cluster, n), bits, job.which + kept);
+  return kept + __builtin_popcount(bits);
 }
 
 /// Keeps the feet that some point of the block may be nearest to: those on its side of the plane
@@ -284,11 +326,9 @@ ARGIL_ROWS int choose_for_planes(const LayerJob& job, int kept, const float* cen
       off -= job.kept[axis][pivot];
       across += (2.0F * half[axis]) * (off < 0.0F ? -off : off);
     }
-    unsigned bits = lane_bits(squares - square <= across + kRoundedSquares * squares);
-    while (bits != 0) {
-      job.chosen[chosen++] = n + __builtin_ctz(bits);
-      bits &= bits - 1;
-    }
+    const unsigned bits = lane_bits(squares - square <= across + kRoundedSquares * squares);
+    put_numbers(n, bits, job.chosen + chosen);
+    chosen += __builtin_popcount(bits);
   }
   return chosen;
 }

@@ -175,9 +175,11 @@ ARGIL_ROWS void project_row(const float* at, const int* from, const LayerRule& r
   magnitudes(value, size);
   const EightFloats miss = size - rule.layer * rule.voxel;
   magnitudes(miss, missed);
-  out.found = lane_bits(missed < kFarthest * rule.voxel);
-  if (out.found == 0) return;
   out.inside = lane_bits(value < 0.0F);
+  const unsigned wanted =
+      (rule.is_wanted[0] ? ~out.inside : 0U) | (rule.is_wanted[1] ? out.inside : 0U);
+  out.found = lane_bits(missed < kFarthest * rule.voxel) & wanted;
+  if (out.found == 0) return;
   const float inverse = 1.0F / rule.voxel;
   const EightFloats steep = value < 0.0F ? none - inverse : none + inverse;
   RowSlopes slopes;

@@ -46,36 +46,85 @@ ARGIL_ROWS void curve_across(const float* from, int inner, float t, float crease
   }
 }
 
-/// Of a row, at all places.
-ARGIL_ROWS void curve_row(const float* from, const CurveJob& job, float* out) {
-  const int count = job.count;
-  for (int done = 0; done < count; done += kRowNodes) {
-    float lanes[4][kRowNodes];
-    float along[kRowNodes];
-    const int lanes_used = count - done < kRowNodes ? count - done : kRowNodes;
-    for (int lane = 0; lane < kRowNodes; ++lane) {
-      const CurvePlace& place = job.places[done + (lane < lanes_used ? lane : 0)];
-      along[lane] = place.t;
-      for (int tap = 0; tap < 4; ++tap) lanes[tap][lane] = from[place.first + tap];
+/// Eight places along a row.
+struct EightPlaces {
+  int base;         ///< the first node of the row that they read
+  int span;         ///< how many they read from there on
+  EightInts first;  ///< of each its first tap, from there on
+  EightFloats t;
+};
+
+/// The places from `done` on; lanes for which none is left have the first of them.
+ARGIL_ROWS void eight_places(const CurveJob& job, int done, EightPlaces& out) {
+  int first[kRowNodes];
+  float t[kRowNodes];
+  int low = job.places[done].first;
+  int high = low;
+  for (int lane = 0; lane < kRowNodes; ++lane) {
+    const CurvePlace& place = job.places[done + lane < job.count ? done + lane : done];
+    low = place.first < low ? place.first : low;
+    high = place.first > high ? place.first : high;
+    first[lane] = place.first;
+    t[lane] = place.t;
+  }
+  out.base = low;
+  out.span = high + 4 - low;
+  __builtin_memcpy(&out.first, first, sizeof first);
+  out.first -= low;
+  load_eight(t, out.t);
+}
+
+/// The nodes that the places read, tap by tap. `is_whole`: eight nodes from their base on are
+/// there, and they read no others.
+ARGIL_ROWS void taps_of(const float* row, const EightPlaces& places, bool is_whole,
+                        EightFloats* node) {
+  const float* from = row + places.base;
+#if defined(__AVX2__)
+  if (is_whole) {
+    EightFloats all;
+    load_eight(from, all);
+    for (int tap = 0; tap < 4; ++tap) {
+      node[tap] = __builtin_ia32_permvarsf256(all, places.first + tap);
     }
-    EightFloats node[4];
-    EightFloats t;
-    EightFloats value;
-    for (int tap = 0; tap < 4; ++tap) load_eight(lanes[tap], node[tap]);
-    load_eight(along, t);
-    curve_at(node, t, job.crease, value);
-    __builtin_memcpy(out + done, &value, static_cast<unsigned>(lanes_used) * sizeof(float));
+    return;
+  }
+#else
+  (void)is_whole;
+#endif
+  for (int tap = 0; tap < 4; ++tap) {
+    float lanes[kRowNodes];
+    for (int lane = 0; lane < kRowNodes; ++lane) lanes[lane] = from[places.first[lane] + tap];
+    load_eight(lanes, node[tap]);
+  }
+}
+
+/// Of rows, all at the same places.
+ARGIL_ROWS void curve_rows(const CurveJob& job, float* out) {
+  for (int done = 0; done < job.count; done += kRowNodes) {
+    EightPlaces places;
+    eight_places(job, done, places);
+    const int used = job.count - done < kRowNodes ? job.count - done : kRowNodes;
+    for (int n = 0; n < job.outer; ++n) {
+      const int left = (job.outer - n) * job.nodes - places.base;
+      EightFloats node[4];
+      EightFloats value;
+      taps_of(job.from + n * job.nodes, places, places.span <= kRowNodes && left >= kRowNodes,
+              node);
+      curve_at(node, places.t, job.crease, value);
+      float* const to = out + n * job.count + done;
+      if (used == kRowNodes) {
+        __builtin_memcpy(to, &value, sizeof value);
+      } else {
+        __builtin_memcpy(to, &value, static_cast<unsigned>(used) * sizeof(float));
+      }
+    }
   }
 }
 
 void curve_along(const CurveJob& job, float* out) noexcept {
+  if (job.inner == 1) return curve_rows(job, out);
   for (int n = 0; n < job.outer; ++n) {
     const float* from = job.from + n * job.nodes * job.inner;
-    if (job.inner == 1) {
-      curve_row(from, job, out);
-      out += job.count;
-      continue;
-    }
     for (int at = 0; at < job.count; ++at) {
       const CurvePlace& place = job.places[at];
       const float* first = from + place.first * job.inner;

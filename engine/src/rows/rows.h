@@ -188,9 +188,10 @@ struct ClusterBoxes {
 /// What points of layers are made by.
 struct LayerRule {
   float voxel;
-  float band;      ///< values as far from the surface are cut short
-  float layer;     ///< voxels from the surface to a layer
-  float averaged;  ///< how far averaging moved the layer, by Laplacian
+  float band;         ///< values as far from the surface are cut short
+  float layer;        ///< voxels from the surface to a layer
+  float averaged;     ///< how far averaging moved the layer, by Laplacian
+  bool is_wanted[2];  ///< outside, then inside; a layer that is not has no points
 };
 
 /// The points of both layers at the nodes of a leaf, from its origin, in eight clusters of 4^3

@@ -16,19 +16,21 @@
 namespace argil {
 namespace {
 
-/// What it interpolates: blocks of two rows of seven nodes, in rows of many lengths.
-void add_curves(const RowLoops& loops, std::mt19937& dice, std::vector<float>& all) {
+/// What it interpolates: blocks of two rows of that many nodes, in rows of many lengths.
+void add_curves(const RowLoops& loops, int nodes, std::mt19937& dice, std::vector<float>& all) {
   std::uniform_real_distribution<float> some(-1.0F, 1.0F);
   std::uniform_real_distribution<float> along(0.0F, 1.0F);
   for (const int inner : {1, 5, 8, 19}) {
-    std::vector<float> from(static_cast<std::size_t>(2 * 7 * inner));
+    std::vector<float> from(static_cast<std::size_t>(2 * nodes * inner));
     for (float& value : from) value = some(dice);
     std::vector<CurvePlace> places(11);
-    for (CurvePlace& place : places) place = {static_cast<int>(dice() % 4), along(dice)};
+    for (CurvePlace& place : places) {
+      place = {static_cast<int>(dice() % static_cast<unsigned>(nodes - 3)), along(dice)};
+    }
     places[3].t = 0.0F;
     std::vector<float> out(2 * places.size() * static_cast<std::size_t>(inner));
     loops.curve_along(
-        {from.data(), 2, 7, inner, places.data(), static_cast<int>(places.size()), 0.3F},
+        {from.data(), 2, nodes, inner, places.data(), static_cast<int>(places.size()), 0.3F},
         out.data());
     all.insert(all.end(), out.begin(), out.end());
   }
@@ -102,7 +104,7 @@ std::array<float, 41> entered_boxes(const RowLoops& loops, std::mt19937& dice) {
 std::vector<float> curves_and_hits(const RowLoops& loops, unsigned seed) {
   std::mt19937 dice(seed);
   std::vector<float> all;
-  add_curves(loops, dice, all);
+  for (const int nodes : {4, 7, 8, 12}) add_curves(loops, nodes, dice, all);
   for (int n = 0; n < 20; ++n) {
     const std::array<float, 4> hit = RayAmongTriangles(dice).first_hit(loops);
     all.insert(all.end(), hit.begin(), hit.end());

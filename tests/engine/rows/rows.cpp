@@ -292,7 +292,7 @@ struct FeetOfALayer {
   static constexpr int kClusters = 16;  ///< with those that fill the vectors up
   std::vector<float> values = std::vector<float>(7 * kCount);
   std::array<std::vector<float>, 3> kept;
-  std::vector<int> which = std::vector<int>(kCount);
+  std::vector<int> which = std::vector<int>(kCount + kRowNodes);
   std::vector<int> chosen = std::vector<int>(kCount + kRowNodes);
   std::uint64_t labels = 0;
   std::vector<LayerCluster> clusters = std::vector<LayerCluster>(kClusters);
