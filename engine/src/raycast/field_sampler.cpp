@@ -54,7 +54,9 @@ void FieldSampler::State::find(const Vec3& point_mm) {
   assert(is_finite(point_mm));
   const Vec3 at = per_mm * point_mm;
   const Coord finest(floor_of(at.x), floor_of(at.y), floor_of(at.z));
-  const int level = octants.finest_level(finest);
+  // No finer level begins within a cell.
+  const bool is_same = scale != 0.0 && (finest >> cell.level) == node;
+  const int level = is_same ? cell.level : octants.finest_level(finest);
   if (level < 0) {
     cell = {};
     cell.corners.fill(stack.sample(stack.top(), finest >> stack.top()));
@@ -63,11 +65,10 @@ void FieldSampler::State::find(const Vec3& point_mm) {
     scale = 0.0;
     return;
   }
-  const Coord low = finest >> level;
-  if (scale == 0.0 || level != cell.level || low != node) {
-    node = low;
+  if (!is_same) {
+    node = finest >> level;
     scale = 1.0 / (1 << level);
-    cell.corners = octants.corners(level, low);
+    cell.corners = octants.corners(level, node);
     cell.level = level;
     cell.per_mm = scale * per_mm;
     field = Trilinear(cell.corners);

@@ -28,7 +28,8 @@ constexpr CellKey kPlaceMask = (CellKey{1} << kPlaceBits) - 1;
 CellKey key_of(const PlacedCell& cell) {
   CellKey key = static_cast<CellKey>(cell.field.level);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto place = static_cast<int>(std::lround(cell.field.per_mm * cell.low_mm[axis]));
+    const double cells = cell.field.per_mm * cell.low_mm[axis];  // whole, but for rounding
+    const auto place = static_cast<int>(cells + std::copysign(0.5, cells));
     assert(place >= -kMostPlace && place < kMostPlace);
     key = key << kPlaceBits | (static_cast<CellKey>(place + kMostPlace) & kPlaceMask);
   }
