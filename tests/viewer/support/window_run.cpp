@@ -14,14 +14,14 @@ std::string shell_word(const std::filesystem::path& file) {
 }
 namespace {
 
-/// Runs the shell's lines in $1 on a display of their own, and ends as they do. The server takes a
+/// Runs the shell's lines in $1 on a display of their own, of $2 pixels, and ends as they do. The server takes a
 /// number that is free: xvfb-run would look for one itself, and sometimes two find the same. It
 /// does not reset, as it else would whenever its last client leaves (xdotool, that looks for the
 /// window): who connects during a reset is dropped.
 constexpr const char* kOnADisplay = R"sh(
 rm -f display  # of a run before
 export LP_NUM_THREADS=0  # software OpenGL without extra threads: three tests share two processors
-Xvfb -displayfd 3 -noreset -screen 0 1280x800x24 -nolisten tcp 3>display 2>xvfb.txt &
+Xvfb -displayfd 3 -noreset -screen 0 "$2"x24 -nolisten tcp 3>display 2>xvfb.txt &
 server=$!
 tries=0
 until [ -s display ]; do
@@ -45,7 +45,7 @@ WindowRun WindowTest::run(const std::string& shell) {
       run_program({"sh", "-c",
                    "cd " + shell_word(folder_.path()) + "\nexec >" + shell_word(out) + " 2>" +
                        shell_word(err) + "\n" + kOnADisplay,
-                   "sh", shell});
+                   "sh", shell, display_});
   WindowRun result;
   result.status = ran.status;
   std::ifstream words(err);

@@ -50,6 +50,7 @@ class WindowTest : public testing::Test {
   static viewer::Camera first_camera(const Box3& bounds_mm);
 
   ScratchFolder folder_;
+  std::string display_ = "1280x800";  ///< pixels of the display that runs begin
 
  private:
   WindowRun run(const std::string& shell);

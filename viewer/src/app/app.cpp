@@ -178,6 +178,7 @@ Result<ViewReport> App::run() {
   report_.uploaded_bytes = renderer_->counts().uploaded_bytes;
   report_.gl_objects = renderer_->counts().objects;
   report_.gl_errors = renderer_->counts().errors;
+  report_.cut_off = cut_off_.found();
   if (options_.checks_gl && report_.gl_errors > 0) {
     return Error{ErrorKind::internal, "OpenGL reported " + std::to_string(report_.gl_errors) +
                                           " errors, the last: " + renderer_->last_error()};
@@ -257,6 +258,7 @@ Result<void> App::frame() {
   draw_panels();
   read_wanted_alphas();
   const bool has_new_panels = gui_.end_frame();
+  if (has_script_) cut_off_.look();
   owes_panels_ = owes_panels_ || has_new_panels;
   const bool may_wait = may_panels_wait(now, has_news);
   // What fades or was laid out anew goes on; the plots of a device always do.

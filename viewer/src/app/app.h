@@ -22,6 +22,7 @@
 #include "input/input_script.h"
 #include "input/window.h"
 #include "panels/file_list.h"
+#include "panels/cut_off.h"
 #include "panels/gui.h"
 #include "panels/panels.h"
 #include "picture/renderer.h"
@@ -121,6 +122,7 @@ class App {
   std::unique_ptr<HapticControl> haptics_;  // outlives the document thread, which uses its ring
   DocumentThread document_;
   Gui gui_;
+  CutOff cut_off_;
   FileList files_;
   Gestures gestures_;
   std::deque<ScriptStep> script_;             ///< what is still to be played

@@ -22,6 +22,8 @@ namespace {
 struct WidgetPositions {
   std::map<std::string, Vec3> now;
   std::map<std::string, Vec3> shown;
+  std::vector<std::string> narrow_now;  ///< buttons whose words are wider than they
+  std::vector<std::string> narrow_shown;
 };
 /// Global as Dear ImGui itself is: widgets are made by plain functions.
 WidgetPositions& positions() {
@@ -204,11 +206,13 @@ void Gui::begin_frame(double elapsed_s) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   positions().now.clear();
+  positions().narrow_now.clear();
 }
 
 bool Gui::end_frame() {
   ImGui::Render();
   positions().shown = positions().now;
+  positions().narrow_shown = positions().narrow_now;
   // Compared as bytes: a frame whose panels are the same as before need not be drawn.
   std::string look = look_of(*ImGui::GetDrawData());
   if (look == look_) return false;
@@ -254,8 +258,12 @@ void note_widget(const std::string& label) {
                             0.5 * static_cast<double>(low.y + high.y), 0.0};
 }
 
+std::vector<std::string> narrow_buttons() { return positions().narrow_shown; }
+
 bool button(const char* label, double width) {
   const bool pressed = ImGui::Button(label, {static_cast<float>(width), 0.0F});
+  const float words = ImGui::CalcTextSize(label, nullptr, true).x;
+  if (words > ImGui::GetItemRectSize().x) positions().narrow_now.emplace_back(label);
   note_widget(label);
   return pressed;
 }

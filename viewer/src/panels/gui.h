@@ -73,6 +73,9 @@ ImVec4 imgui_color(const Paint& paint);
 /// A text in one of them.
 void colored_text(const Paint& paint, const std::string& text);
 
+/// The labels of buttons of the last frame whose words are wider than they.
+std::vector<std::string> narrow_buttons();
+
 /// Remembers where the widget just made is, under its label. The functions below do so themselves.
 void note_widget(const std::string& label);
 

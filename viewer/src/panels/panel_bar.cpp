@@ -236,6 +236,7 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   ImGui::SetNextWindowPos({0.0F, screen.y - high - 2.0F});
   ImGui::SetNextWindowSize({screen.x, high + 2.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8.0F * unit(), 3.0F * unit()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});  // else more than a line of text
   ImGui::Begin("Status", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
@@ -252,7 +253,7 @@ void draw_status(const UiState& ui, const FrameState& frame) {
   }
   draw_hint(ui, screen.x);
   ImGui::End();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
 }
 
 /// Beside the pointer, as a number on a drawing.

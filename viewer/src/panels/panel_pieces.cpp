@@ -259,7 +259,7 @@ bool draw_numbers(const std::array<const char*, 3>& labels, Vec3& values, double
   bool is_entered = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) ImGui::SameLine();
-    ImGui::SetNextItemWidth(80.0F * unit());
+    ImGui::SetNextItemWidth(78.0F * unit());
     // What is not typed stays as it is, also beyond what can be typed.
     double value = values[axis];
     if (number(labels[axis], value, -most, most, format)) values[axis] = value;
@@ -302,7 +302,7 @@ void draw_piece_size(UiState& ui, DocumentThread& document) {
                    choices.is_typing_size)) {
     factor = wanted_factor(now, choices.size_mm);
   }
-  ImGui::SetNextItemWidth(80.0F * unit());
+  ImGui::SetNextItemWidth(78.0F * unit());
   number("Scale, %", choices.percent, kLeastPercent, kMostPercent, "%.4g");
   choices.is_typing_size = choices.is_typing_size || ImGui::IsItemActive();
   if (ImGui::IsItemDeactivatedAfterEdit()) factor = choices.percent / 100.0;

@@ -67,8 +67,10 @@ void draw_references(UiState& ui) {
   keep_on_screen(kReferencesWidth);
   ImGui::Begin("Reference images", &ui.panels.has_references, ImGuiWindowFlags_NoSavedSettings);
   if (ui.references.empty()) {
-    ImGui::TextDisabled("PNG images to sculpt by: each is shown");
-    ImGui::TextDisabled("while the window looks straight in its view");
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextDisabled(
+        "PNG images to sculpt by: each is shown while the window looks straight in its view");
+    ImGui::PopTextWrapPos();
   }
   std::optional<std::size_t> removed;
   for (std::size_t n = 0; n < ui.references.size(); ++n) {

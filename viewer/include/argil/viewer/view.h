@@ -97,6 +97,9 @@ struct ViewReport {
   std::vector<ViewMeasurement> measurements;  ///< oldest first; those of hidden pieces left out
   /// What was shown to the user as an error, in order. None of it makes `view` fail.
   std::vector<std::string> complaints;
+  /// What could not be seen whole while a script was played, each once: a panel's title or a
+  /// button's label, and how it was cut off.
+  std::vector<std::string> cut_off;
 };
 
 /// Opens the window, and returns when it is closed, a signal asks for the end (io::interrupted), or
