@@ -71,6 +71,7 @@ Result<Outcome> run_view(const ViewChoice& choice) {
   outcome.json["gl_errors"] = report.gl_errors;
   outcome.json["measurements"] = json_of(report.measurements);
   outcome.json["complaints"] = report.complaints;
+  outcome.json["panels"] = report.panels;
   outcome.json["cut_off"] = report.cut_off;
   // The window ends in its own way and still reports; the status says why it ended.
   if (io::interrupted()) outcome.status = status_of(ErrorKind::interrupted);

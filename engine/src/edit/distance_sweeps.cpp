@@ -93,6 +93,7 @@ class Sweeps {
 
   /// False: asked to stop.
   bool solve(const std::function<bool()>& goes_on) {
+    if (goes_on && !goes_on()) return false;
     for_each_leaf(leaves_.size(), [&](std::size_t n) { seed(leaves_[n]); });
     for (int sweep = 0; sweep < kMostSweeps && is_moving(); ++sweep) {
       if (goes_on && !goes_on()) return false;

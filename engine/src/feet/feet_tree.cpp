@@ -150,6 +150,7 @@ FeetTree::Branch FeetTree::branch_over(const std::vector<Part>& parts, std::size
 
 void FeetTree::collect(const Vec3& center_mm, double half_mm, float least_mm, float most_mm,
                        Found& found) const {
+  assert(half_mm >= 0.0 && most_mm >= 0.0F);
   found.lists.resize(std::max(found.lists.size(), apart_mm_.size()));
   for (ClusterList& list : found.lists) list.clear();
   found.bound_mm = most_mm;
@@ -173,7 +174,7 @@ float bound_of(const ClusterSquares& squares) noexcept {
   return std::sqrt(*std::ranges::min_element(squares.farthest)) * kRounding;
 }
 
-/// Whether a box is farther than `reach`; some that are by less than rounding may do are not told.
+/// Whether a box is farther than `reach`, not less than 0, by more than rounding may have done.
 bool is_surely_beyond(float nearest_square, float reach) noexcept {
   return nearest_square > reach * reach * kRounding * kRounding;
 }

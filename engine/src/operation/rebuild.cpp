@@ -142,22 +142,21 @@ bool Rebuilder::fill(int level, const Origins& origins, Keep keep) {
     const double done = static_cast<double>(begin) / static_cast<double>(origins.size());
     if (progress_ && !progress_("distance", done)) return false;
     const std::size_t count = std::min(kLeavesAtOnce, origins.size() - begin);
-    std::vector<LeafValues>& values = values_;
-    values.resize(std::max(values.size(), count));
+    values_.resize(std::max(values_.size(), count));
     std::vector<std::uint8_t> kept(count, 0);
     for_each_leaf(count, [&](std::size_t n) {
       const Coord& origin = origins[begin + n];
       bool has_detail = false;
-      if (!moved->fill(origin, values[n], has_detail)) return;
-      if (!has_band(values[n].data(), band)) return;
+      if (!moved->fill(origin, values_[n], has_detail)) return;
+      if (!has_band(values_[n].data(), band)) return;
       const bool is_kept =
           keep == Keep::banded || has_detail ||
-          coarser_misses(values[n].data(), coarse_nodes(*stack_, level + 1, origin),
+          coarser_misses(values_[n].data(), coarse_nodes(*stack_, level + 1, origin),
                          coarsening_criterion(*stack_, level, tolerance_mm_));
       kept[n] = is_kept ? 1 : 0;
     });
     for (std::size_t n = 0; n < count; ++n) {
-      if (kept[n] != 0) stack_->set_leaf(level, origins[begin + n], values[n].data());
+      if (kept[n] != 0) stack_->set_leaf(level, origins[begin + n], values_[n].data());
     }
   }
   return true;
@@ -209,6 +208,7 @@ Result<std::unique_ptr<LevelStack>> Rebuilder::run() {
     if (!fill(level, octants(level), Keep::needed)) return interrupted;
   }
   if (!balance()) return interrupted;
+  values_ = {};
   const bool is_a_distance = source_.offset_mm == 0.0;
   if (!is_a_distance && !redistance_shortened(*stack_, source_.offset_mm < 0.0, progress_)) {
     return interrupted;

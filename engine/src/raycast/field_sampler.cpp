@@ -54,7 +54,8 @@ void FieldSampler::State::find(const Vec3& point_mm) {
   assert(is_finite(point_mm));
   const Vec3 at = per_mm * point_mm;
   const Coord finest(floor_of(at.x), floor_of(at.y), floor_of(at.z));
-  // No finer level begins within a cell.
+  // No finer level begins within a cell: a finer leaf covers an octant of the coarser one, whole
+  // cells.
   const bool is_same = scale != 0.0 && (finest >> cell.level) == node;
   const int level = is_same ? cell.level : octants.finest_level(finest);
   if (level < 0) {

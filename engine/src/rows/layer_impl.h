@@ -224,7 +224,8 @@ ARGIL_ROWS unsigned candidate_clusters(const LayerJob& job, int n, const BlockCu
   return lane_bits(least - square <= kRoundedSquares * (terms + square));
 }
 
-/// Keeps those of eight feet of a cluster, the first `n`, that candidate_clusters() means.
+/// Keeps those of eight feet of a cluster, the first `n`, that candidate_clusters() means. No more
+/// were kept than looked at, so that what is written beyond them has room.
 ARGIL_ROWS int keep_of_eight(const LayerJob& job, int cluster, int n, const BlockCube& block,
                              const float* pivot, float square, float most, int kept) {
   EightFloats places[3];

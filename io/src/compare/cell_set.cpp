@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -29,8 +30,8 @@ CellKey key_of(const PlacedCell& cell) {
   CellKey key = static_cast<CellKey>(cell.field.level);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double cells = cell.field.per_mm * cell.low_mm[axis];  // whole, but for rounding
+    assert(cells > -kMostPlace - 0.5 && cells < kMostPlace - 0.5);
     const auto place = static_cast<int>(cells + std::copysign(0.5, cells));
-    assert(place >= -kMostPlace && place < kMostPlace);
     key = key << kPlaceBits | (static_cast<CellKey>(place + kMostPlace) & kPlaceMask);
   }
   return key;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every panel, dialog and menu on screens of three sizes: nothing is cut off. With ARGIL_SHOTS the
 // pictures of all are kept in that folder, to be looked at.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include "argil/io/mesh_file.h"
 #include "argil/io/project_file.h"
 
+#include "document/tool_info.h"
 #include "settings/settings.h"
 #include "support/shapes.h"
 #include "viewer/support/window_run.h"
@@ -49,14 +52,18 @@ class Screens : public test::WindowTest {
   std::string seen(const std::string& name, const std::string& opens, const std::string& closes) {
     return opens + "frames 6\nshot " + name + ".png\n" + closes + "frames 3\n";
   }
-  /// Expects that all of what the script shows is seen, and keeps its pictures.
-  void expect_seen(const std::string& script) {
+  /// Expects that a script shows these panels, and that all of them is seen; keeps its pictures.
+  void expect_seen(const std::string& script, const std::vector<std::string>& panels) {
     const WindowRun run = play(
         "settle\n" + script + "key Ctrl+Q\nframes 4\n", shell_word(folder_ / "s.vdb"),
         "--width " + std::to_string(screen_.width) + " --height " + std::to_string(screen_.height));
     EXPECT_EQ(run.status, 0) << run.words;
     ASSERT_TRUE(run.report.contains("cut_off")) << run.words;
     EXPECT_EQ(run.report["cut_off"].size(), 0U) << run.report["cut_off"].dump(1);
+    const nlohmann::json& shown = run.report["panels"];
+    for (const std::string& panel : panels) {
+      EXPECT_NE(std::find(shown.begin(), shown.end(), panel), shown.end()) << panel << shown.dump();
+    }
     keep_pictures();
   }
   void keep_pictures() {
@@ -79,11 +86,14 @@ void Screens::expect_dialogs_seen() {
   ASSERT_TRUE(io::write_mesh(mesh, test::box_mesh({10.0, 20.0, 40.0})).ok());
   const std::string esc = "key Esc\n";
   expect_seen(seen("new", "key Ctrl+N\n", esc) + seen("open", "key Ctrl+O\n", esc) +
-              seen("save_as", "key Ctrl+Shift+S\n", esc) + seen("export", "key Ctrl+E\n", esc) +
-              seen("operations", "key Ctrl+W\n", esc) +
-              seen("still", "click File\nframes 2\nclick Still picture...\n", esc) +
-              seen("import", "drop " + mesh.string() + "\nframes 3\nsettle\n", esc) +
-              seen("search", "key Ctrl+K\n", esc));
+                  seen("save_as", "key Ctrl+Shift+S\n", esc) + seen("export", "key Ctrl+E\n", esc) +
+                  seen("operations", "key Ctrl+W\n", esc) +
+                  seen("still", "click File\nframes 2\nclick Still picture...\n", esc) +
+                  seen("import", "drop " + mesh.string() + "\nframes 3\nsettle\n", esc) +
+                  seen("search", "key Ctrl+K\n", esc) +
+                  seen("image", "drop " + (folder_ / "new.png").string() + "\n", esc),
+              {"New clay", "Open", "Save as", "Export for printing", "Whole clay", "Still picture",
+               "Import", "What is the image for?"});
 }
 
 void Screens::expect_panels_seen() {
@@ -95,10 +105,13 @@ void Screens::expect_panels_seen() {
     return seen(name, chosen, chosen);
   };
   expect_seen(panel("pieces", "Ctrl+P") + panel("history", "Ctrl+H") + panel("presets", "Shift+B") +
-              panel("measurements", "Ctrl+Alt+U") + panel("messages", "Ctrl+M") +
-              panel("help", "F1") + panel("keys", "Shift+F1") + panel("slice", "Shift+W") +
-              searched("device", "Device panel") + searched("print", "Print") +
-              searched("references", "Reference images") + searched("figures", "Clay's figures"));
+                  panel("measurements", "Ctrl+Alt+U") + panel("messages", "Ctrl+M") +
+                  panel("help", "F1") + panel("keys", "Shift+F1") + panel("slice", "Shift+W") +
+                  searched("device", "Device panel") + searched("print", "Print") +
+                  searched("references", "Reference images") +
+                  searched("figures", "Clay's figures"),
+              {"Pieces", "History", "Presets", "Measure", "Messages", "Keys and mouse",
+               "Change keys", "Device", "Print", "Reference images"});
 }
 
 void Screens::expect_menus_and_tools_seen() {
@@ -107,11 +120,13 @@ void Screens::expect_menus_and_tools_seen() {
        {"File", "Edit", "Piece", "Brush", "Mask", "View", "Measure", "Device", "Help"}) {
     script += seen("menu_" + menu, "click " + menu + "\n", "key Esc\n");
   }
-  // The options of tools differ at the right.
-  for (const std::string key : {"D", "K", "G", "Q", "L", "E", "T", "M", "N", "H"}) {
-    script += seen("tool_" + key, "key " + key + "\n", "");
+  // The options of tools differ at the right; the menu Mask has the name of a tool.
+  script += "click Stroke\n";
+  for (const viewer::ToolInfo& tool : viewer::tool_infos()) {
+    const std::string title = tool.title;
+    script += seen("tool_" + title, title == "Mask" ? "key M\n" : "click " + title + "\n", "");
   }
-  expect_seen(script);
+  expect_seen(script, {"Tools", "Brush", "View", "Status"});
 }
 
 class ScreensGl : public Screens, public testing::WithParamInterface<Screen> {

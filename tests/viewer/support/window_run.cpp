@@ -14,10 +14,10 @@ std::string shell_word(const std::filesystem::path& file) {
 }
 namespace {
 
-/// Runs the shell's lines in $1 on a display of their own, of $2 pixels, and ends as they do. The server takes a
-/// number that is free: xvfb-run would look for one itself, and sometimes two find the same. It
-/// does not reset, as it else would whenever its last client leaves (xdotool, that looks for the
-/// window): who connects during a reset is dropped.
+/// Runs the shell's lines in $1 on a display of their own, of $2 pixels, and ends as they do. The
+/// server takes a number that is free: xvfb-run would look for one itself, and sometimes two find
+/// the same. It does not reset, as it else would whenever its last client leaves (xdotool, that
+/// looks for the window): who connects during a reset is dropped.
 constexpr const char* kOnADisplay = R"sh(
 rm -f display  # of a run before
 export LP_NUM_THREADS=0  # software OpenGL without extra threads: three tests share two processors

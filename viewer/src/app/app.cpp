@@ -178,6 +178,7 @@ Result<ViewReport> App::run() {
   report_.uploaded_bytes = renderer_->counts().uploaded_bytes;
   report_.gl_objects = renderer_->counts().objects;
   report_.gl_errors = renderer_->counts().errors;
+  report_.panels = cut_off_.panels();
   report_.cut_off = cut_off_.found();
   if (options_.checks_gl && report_.gl_errors > 0) {
     return Error{ErrorKind::internal, "OpenGL reported " + std::to_string(report_.gl_errors) +

@@ -2,9 +2,12 @@
 #include "panels/cut_off.h"
 
 #include <optional>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_internal.h>  // the windows of the last frame
+
+#include "panels/gui.h"
 
 namespace argil::viewer {
 namespace {
@@ -12,6 +15,10 @@ namespace {
 /// Of sizes that are rounded one by one.
 constexpr float kRoundedPixels = 1.5F;
 constexpr int kLastingFrames = 3;
+
+bool has_flag(const ImGuiWindow& window, ImGuiWindowFlags flag) {
+  return (window.Flags & flag) != 0;
+}
 
 bool is_beyond_screen(const ImGuiWindow& window) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -21,20 +28,22 @@ bool is_beyond_screen(const ImGuiWindow& window) {
          high.y > screen.y + kRoundedPixels;
 }
 
-/// How a window of the last frame is cut off, if it is.
+/// How a window that is shown is cut off, if it is.
 std::optional<std::string> fault_of(const ImGuiWindow& window) {
-  const auto has = [&](ImGuiWindowFlags flag) { return (window.Flags & flag) != 0; };
-  if (!window.Active || window.Hidden || window.Collapsed) return std::nullopt;
-  if (!has(ImGuiWindowFlags_ChildWindow) && is_beyond_screen(window)) {
+  if (!has_flag(window, ImGuiWindowFlags_ChildWindow) && is_beyond_screen(window)) {
     return "reaches beyond the screen";
   }
-  // What scrolling would have to reach.
-  if (window.ScrollMax.x > kRoundedPixels && !has(ImGuiWindowFlags_HorizontalScrollbar)) {
+  // What would have to be scrolled to. A window without a bar could be by the wheel, but no one
+  // knows.
+  if (window.ScrollMax.x > kRoundedPixels &&
+      !has_flag(window, ImGuiWindowFlags_HorizontalScrollbar)) {
     return "is too narrow";
   }
-  const bool scrolls =
-      !has(ImGuiWindowFlags_NoScrollbar) || !has(ImGuiWindowFlags_NoScrollWithMouse);
-  if (window.ScrollMax.y > kRoundedPixels && !scrolls) return "is too low";
+  // The main menu bar is as high as Dear ImGui makes it, and counts what its menu hides.
+  if (window.ScrollMax.y > kRoundedPixels && !has_flag(window, ImGuiWindowFlags_MenuBar) &&
+      has_flag(window, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoMouseInputs)) {
+    return "is not high enough";
+  }
   return std::nullopt;
 }
 
@@ -42,16 +51,19 @@ std::optional<std::string> fault_of(const ImGuiWindow& window) {
 
 void CutOff::look() {
   std::map<std::string, int> now;
-  const auto note = [&](const std::string& name, const std::string& how) {
-    const std::string fault = name + " " + how;
+  const auto note = [&](const std::string& fault) {
     const auto before = frames_.find(fault);
     now[fault] = before == frames_.end() ? 1 : before->second + 1;
     if (now[fault] >= kLastingFrames) found_.insert(fault);
   };
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (const auto fault = fault_of(*window)) note(window->Name, *fault);
+    if (!window->Active || window->Hidden || window->Collapsed) continue;
+    const std::string name = window->Name;
+    if (const auto fault = fault_of(*window)) note(name + " " + *fault);
+    const bool has_title = name.find("##") == std::string::npos;
+    if (has_title && !has_flag(*window, ImGuiWindowFlags_ChildWindow)) panels_.insert(name);
   }
-  for (const std::string& label : narrow_buttons()) note(label, "is wider than its button");
+  for (const std::string& words : narrow_buttons()) note(words + " is wider than its button");
   frames_ = std::move(now);
 }
 

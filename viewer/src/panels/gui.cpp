@@ -22,8 +22,7 @@ namespace {
 struct WidgetPositions {
   std::map<std::string, Vec3> now;
   std::map<std::string, Vec3> shown;
-  std::vector<std::string> narrow_now;  ///< buttons whose words are wider than they
-  std::vector<std::string> narrow_shown;
+  std::vector<std::string> narrow;  ///< of the frame that is being made: narrow_buttons()
 };
 /// Global as Dear ImGui itself is: widgets are made by plain functions.
 WidgetPositions& positions() {
@@ -205,14 +204,12 @@ void Gui::begin_frame(double elapsed_s) {
   queue_.apply(io);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  positions().now.clear();
-  positions().narrow_now.clear();
+  begin_widgets();
 }
 
 bool Gui::end_frame() {
   ImGui::Render();
   positions().shown = positions().now;
-  positions().narrow_shown = positions().narrow_now;
   // Compared as bytes: a frame whose panels are the same as before need not be drawn.
   std::string look = look_of(*ImGui::GetDrawData());
   if (look == look_) return false;
@@ -258,13 +255,27 @@ void note_widget(const std::string& label) {
                             0.5 * static_cast<double>(low.y + high.y), 0.0};
 }
 
-std::vector<std::string> narrow_buttons() { return positions().narrow_shown; }
+void begin_widgets() {
+  positions().now.clear();
+  positions().narrow.clear();
+}
+
+const std::vector<std::string>& narrow_buttons() { return positions().narrow; }
 
 bool button(const char* label, double width) {
-  const bool pressed = ImGui::Button(label, {static_cast<float>(width), 0.0F});
-  const float words = ImGui::CalcTextSize(label, nullptr, true).x;
-  if (words > ImGui::GetItemRectSize().x) positions().narrow_now.emplace_back(label);
-  note_widget(label);
+  const std::string name = label;
+  return button(name, name.substr(0, name.find("##")), width);
+}
+
+bool button(const std::string& name, const std::string& words, double width) {
+  const bool pressed =
+      ImGui::Button((words + "###" + name).c_str(), {static_cast<float>(width), 0.0F});
+  note_widget(name);
+  constexpr float kRounded = 0.5F;
+  const float room = ImGui::GetItemRectSize().x - ImGui::GetStyle().FramePadding.x + kRounded;
+  if (!ImGui::GetCurrentWindow()->SkipItems && ImGui::CalcTextSize(words.c_str()).x > room) {
+    positions().narrow.push_back(words);
+  }
   return pressed;
 }
 

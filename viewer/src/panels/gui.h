@@ -73,14 +73,19 @@ ImVec4 imgui_color(const Paint& paint);
 /// A text in one of them.
 void colored_text(const Paint& paint, const std::string& text);
 
-/// The labels of buttons of the last frame whose words are wider than they.
-std::vector<std::string> narrow_buttons();
+/// Forgets what is known of the widgets of the frame before; Gui::begin_frame() does so.
+void begin_widgets();
+
+/// What is written on buttons of this frame that are narrower.
+const std::vector<std::string>& narrow_buttons();
 
 /// Remembers where the widget just made is, under its label. The functions below do so themselves.
 void note_widget(const std::string& label);
 
 // Widgets that a script finds by their label.
 bool button(const char* label, double width = 0.0);
+/// One whose words change: a script finds it by its name.
+bool button(const std::string& name, const std::string& words, double width);
 bool choice(const char* label, bool is_chosen, double width = 0.0);
 /// An area of this size to click on; the caller draws what it shows.
 bool tile(const char* label, double width, double height);

@@ -28,9 +28,7 @@ const char* group_of(const KeyAim& aim) {
 /// A button of this text that a script finds by the name of the aim: "key undo".
 bool aim_button(const char* what, const std::string& text, const KeyAim& aim, float width) {
   const std::string id = std::string(what) + " " + std::string(name_of(aim));
-  const bool is_pressed = ImGui::Button((text + "###" + id).c_str(), {width, 0.0F});
-  note_widget(id);
-  return is_pressed;
+  return button(id, text, static_cast<double>(width));
 }
 
 /// What it is, its key, and ways to be without one or to have that of the set again.

@@ -85,11 +85,10 @@ void draw_chosen_preset(UiState& ui) {
   ImGui::TextUnformatted(fitted(preset->name, 220.0F * unit()).c_str());
   const std::string key = preset_key_text(*preset, ui);
   const std::string shown = choice.waits_for_key ? "press a key..." : key.empty() ? "no key" : key;
-  if (ImGui::Button((shown + "###preset key").c_str(), {110.0F * unit(), 0.0F})) {
+  if (button("preset key", shown, static_cast<double>(110.0F * unit()))) {
     choice.waits_for_key = true;
     choice.refused.clear();
   }
-  note_widget("preset key");
   ImGui::SameLine();
   // A built-in one cannot be removed: it would be back at the next start.
   ImGui::BeginDisabled(preset->is_built_in);

@@ -104,8 +104,10 @@ void draw_pressure(UiState& ui) {
   ImGui::SameLine();
   if (button("Firm")) curve = kFirmPressure;
   const float u = unit();
-  tile("Pressure curve", static_cast<double>(kCurveWide * u), static_cast<double>(kCurveHigh * u));
-  const CurveFrame frame{ImGui::GetItemRectMin(), {kCurveWide * u, kCurveHigh * u}};
+  // Less than usual beside a bar to scroll by.
+  const float wide = std::min(kCurveWide * u, ImGui::GetContentRegionAvail().x);
+  tile("Pressure curve", static_cast<double>(wide), static_cast<double>(kCurveHigh * u));
+  const CurveFrame frame{ImGui::GetItemRectMin(), {wide, kCurveHigh * u}};
   if (ImGui::IsItemActive()) drag_curve(curve, frame);
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("to the right: how hard the pen is pressed; up: what it counts as");

@@ -97,8 +97,9 @@ struct ViewReport {
   std::vector<ViewMeasurement> measurements;  ///< oldest first; those of hidden pieces left out
   /// What was shown to the user as an error, in order. None of it makes `view` fail.
   std::vector<std::string> complaints;
-  /// What could not be seen whole while a script was played, each once: a panel's title or a
-  /// button's label, and how it was cut off.
+  /// The titles of the panels and dialogs that were shown while a script was played, each once.
+  std::vector<std::string> panels;
+  /// What could not be seen whole meanwhile, each once: a title or a button's words, and how.
   std::vector<std::string> cut_off;
 };
 
