@@ -59,10 +59,17 @@ class Player:
     def puck(self):
         return "puck " + " ".join(f"{self.rng.uniform(-1, 1):.2f}" for _ in range(6)) + " 0.1"
 
+    def fingers(self):
+        """Two or three, a drag of the pointer between, and all leave again."""
+        numbers = range(1, self.rng.randint(2, 3) + 1)
+        moves = [f"finger {n} {self.place()}" for n in numbers for _ in range(self.rng.randint(1, 3))]
+        self.rng.shuffle(moves)
+        return "\n".join([*moves, self.drag(), *(f"finger {n} up" for n in numbers)])
+
     def event(self):
         # Esc, or what a sitting opens would hold up the rest of it.
         makers = {self.drag: 30, self.click: 20, self.key: 25, lambda: "key Esc": 8, self.text: 4, self.press: 3,
-                  self.puck: 1, lambda: f"move {self.place()}": 4, lambda: f"scroll {self.rng.randint(-4, 4)}": 3,
+                  self.puck: 1, self.fingers: 3, lambda: f"move {self.place()}": 4, lambda: f"scroll {self.rng.randint(-4, 4)}": 3,
                   lambda: f"pen {self.rng.random():.2f}": 2, lambda: "drop " + self.rng.choice(self.files): 3,
                   lambda: f"resize {self.rng.randint(320, 1200)} {self.rng.randint(240, 900)}": 2,
                   lambda: f"frames {self.rng.randint(1, 3)}": 2, lambda: "settle": 1}

@@ -89,6 +89,20 @@ TEST_F(ViewHabitsGl, AKeyThatIsPressedForACommandIsItsKeyInTheNextWindow) {
   EXPECT_NE(middle(test::read_picture(folder_ / "wires.png")), plain);
 }
 
+TEST_F(ViewHabitsGl, TwoFingersMoveTheViewAndATapOfTwoTakesAStepBack) {
+  const std::string still = "move 20 620\nframes 3\nsettle\nshot ";
+  played("key Tab\n" + still + "begun.png\n" + "drag left 470 300 530 300\nsettle\n" + still +
+         "worked.png\n" + "finger 1 400 300\nfinger 2 600 300\nfinger 1 up\nfinger 2 up\nsettle\n" +
+         still + "undone.png\n" +
+         "finger 1 400 300\nfinger 2 600 300\nfinger 1 380 300\nfinger 1 300 300\n"
+         "finger 2 620 300\nfinger 2 700 300\nfinger 2 up\nfinger 1 up\nsettle\n" +
+         still + "near.png\n");
+  const auto begun = middle(test::read_picture(folder_ / "begun.png"));
+  EXPECT_NE(middle(test::read_picture(folder_ / "worked.png")), begun);
+  EXPECT_EQ(middle(test::read_picture(folder_ / "undone.png")), begun);
+  EXPECT_NE(middle(test::read_picture(folder_ / "near.png")), begun);
+}
+
 TEST_F(ViewHabitsGl, ABadFileOfKeysChangesNothing) {
   const std::string bad = "{\n\"argil_keys\": 1,\n\"commands\": {\"wirez\": \"F7\"}}\n";
   test::fill(home() / "keys.json", bad);

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "commands/command.h"
-#include "commands/measure_marks.h"
+#include "gestures/measure_marks.h"
 #include "viewer/support/gestures_test.h"
 
 namespace argil::viewer {

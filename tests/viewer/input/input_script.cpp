@@ -26,6 +26,13 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
   EXPECT_TRUE(std::get<PlayEvent>(pen.front().what).event.is_eraser);
   EXPECT_EQ(std::get<PlayEvent>(pen.front().what).event.pressure, 0.5);
   EXPECT_FALSE(std::get<PlayEvent>(pen.back().what).event.is_eraser);
+  const auto fingers = read("finger 2 3 4\nfinger 2 5 6\nfinger 2 up\n").value();
+  const auto& lifted = std::get<PlayEvent>(fingers.back().what).event;
+  EXPECT_EQ(std::get<PlayEvent>(fingers[0].what).event.kind, InputEvent::Kind::finger_down);
+  EXPECT_EQ(std::get<PlayEvent>(fingers[1].what).event.kind, InputEvent::Kind::finger_move);
+  EXPECT_EQ(std::get<PlayEvent>(fingers[1].what).event.x, 5.0);
+  EXPECT_EQ(lifted.kind, InputEvent::Kind::finger_up);
+  EXPECT_EQ(lifted.finger, 2U);
   EXPECT_EQ(read("drag left 0 0 10 10 5 ctrl+shift\n").value().size(), 9U);
   for (const auto& [text, word] : {std::pair{"settle\nmoove 1 2\n", "moove"},
                                    {"settle\nmove 1 x\n", "'x'"},
@@ -34,6 +41,8 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
                                    {"settle\nframes 0\n", "N is '0'; must be"},
                                    {"settle\nmove 1 2 3\n", "'3'"},
                                    {"settle\npen 0.5 tail\n", "tail"},
+                                   {"settle\nfinger 1 up\n", "is not down"},
+                                   {"settle\nfinger 11 3 4\n", "'11'"},
                                    {"settle\nclick\n", "LABEL"},
                                    {"settle\ndrag left 1 2 3\n", "must be a number"}}) {
     const auto steps = read(text);
@@ -68,6 +77,8 @@ TEST(InputScript, RefusesNumbersOutOfRangeWithValueAndRange) {
       {"puck 0 ", " 0 0 0 0 1", "Y", "-1 to 1", "-1", "1", "1.5"},
       {"puck 0 0 0 0 0 ", " 1", "RZ", "-1 to 1", "-1", "1", "-1.5"},
       {"puck 0 0 0 0 0 0 ", "", "S", "0 to 10 seconds", "0", "10", "-0.1"},
+      {"finger ", " 3 4", "N", "1 to 10", "1", "10", "11"},
+      {"finger 1 ", " 4", "X", "-100000 to 100000 pixels", "-100000", "1e5", "-100001"},
       {"frames ", "", "N", "1 to 10000", "1", "10000", "2.5"},
       {"resize ", " 480", "WIDTH", "320 to 8192 pixels", "320", "8192", "319"},
       {"resize 640 ", "", "HEIGHT", "240 to 8192 pixels", "240", "8192", "239"}};

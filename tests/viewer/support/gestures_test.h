@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "commands/gestures.h"
+#include "gestures/gestures.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {

@@ -14,10 +14,10 @@
 #include "argil/core/vec3.h"
 #include "argil/viewer/view.h"
 
-#include "commands/gestures.h"
 #include "commands/piece_edits.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
+#include "gestures/gestures.h"
 #include "haptics/haptic_control.h"
 #include "input/input_script.h"
 #include "input/window.h"

@@ -6,8 +6,8 @@
 #include "app/app.h"
 #include "base/theme.h"
 #include "commands/command.h"
-#include "commands/measure_marks.h"
-#include "commands/piece_gestures.h"
+#include "gestures/measure_marks.h"
+#include "gestures/piece_gestures.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {

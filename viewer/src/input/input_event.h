@@ -61,7 +61,21 @@ enum class MouseButton { left, right, middle };
 
 /// One thing that the user, or a script, did to the window.
 struct InputEvent {
-  enum class Kind { move, press, release, scroll, puck, key_down, key_up, text, drop, close };
+  enum class Kind {
+    move,
+    press,
+    release,
+    scroll,
+    puck,
+    finger_down,
+    finger_move,
+    finger_up,
+    key_down,
+    key_up,
+    text,
+    drop,
+    close
+  };
   Kind kind = Kind::move;
   double time_s = 0.0;  ///< of the window's clock
   double x = 0.0;       ///< of the pointer in pixels from the upper left, always the newest
@@ -75,6 +89,8 @@ struct InputEvent {
   Vec3 puck_shift;
   Vec3 puck_turn;
   double puck_s = 0.0;
+  unsigned finger =
+      0;  ///< on a touch screen, whose place x and y are then: its own until it leaves
   int key = 0;
   bool is_repeat = false;
   Modifiers modifiers;

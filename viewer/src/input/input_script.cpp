@@ -4,6 +4,7 @@
 #include <cassert>
 #include <charconv>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -29,6 +30,7 @@ constexpr Range kScrollSteps{-100.0, 100.0, "a number from -100 to 100"};
 constexpr Range kPressure{0.0, 1.0, "a number from 0 to 1"};
 constexpr Range kPuckFraction{-1.0, 1.0, "a number from -1 to 1"};
 constexpr Range kPuckSeconds{0.0, 10.0, "a number from 0 to 10 seconds"};
+constexpr Range kFinger{1.0, 10.0, "a whole number from 1 to 10"};
 constexpr Range kCount{1.0, kMostMoves, "a whole number from 1 to 10000"};
 constexpr Range kWidth{320.0, 8192.0, "a whole number from 320 to 8192 pixels"};
 constexpr Range kHeight{240.0, 8192.0, "a whole number from 240 to 8192 pixels"};
@@ -42,9 +44,15 @@ struct Misread {
 /// nested parts need no way back of their own, and read_input_script turns them into an Error.
 class LineReader {
  public:
-  /// `pen`, which this line may change for all that follow.
-  LineReader(const std::string& line, int number, PenState& pen, std::vector<ScriptStep>& steps)
-      : words_(line), number_(number), pen_(pen), steps_(steps) {}
+  /// What earlier lines have left.
+  struct State {
+    PenState pen;
+    std::set<int> fingers;  ///< that are down
+  };
+
+  /// `state`, which this line may change for all that follow.
+  LineReader(const std::string& line, int number, State& state, std::vector<ScriptStep>& steps)
+      : words_(line), number_(number), pen_(state.pen), fingers_(state.fingers), steps_(steps) {}
 
   void read() {
     std::string command;
@@ -64,6 +72,8 @@ class LineReader {
       pen();
     } else if (command == "puck") {
       puck();
+    } else if (command == "finger") {
+      finger();
     } else if (command == "key") {
       key();
     } else if (command == "type") {
@@ -240,6 +250,31 @@ class LineReader {
     pushed.puck_s = seconds;
   }
 
+  /// "finger 1 X Y" puts it down there, or moves it; "finger 1 up" lifts it.
+  void finger() {
+    const int number = whole("N", kFinger);
+    const auto begin = words_.tellg();
+    std::string word;
+    words_ >> word;
+    if (word == "up") {
+      if (fingers_.erase(number) == 0) {
+        throw Misread{"the finger " + std::to_string(number) + " is not down"};
+      }
+      event(InputEvent::Kind::finger_up).finger = static_cast<unsigned>(number);
+      return;
+    }
+    words_.clear();
+    words_.seekg(begin);
+    const double x = value("X", kPixels);
+    const double y = value("Y", kPixels);
+    const bool is_new = fingers_.insert(number).second;
+    InputEvent& moved =
+        event(is_new ? InputEvent::Kind::finger_down : InputEvent::Kind::finger_move);
+    moved.finger = static_cast<unsigned>(number);
+    moved.x = x;
+    moved.y = y;
+  }
+
   void key() {
     std::string word;
     words_ >> word;
@@ -261,6 +296,7 @@ class LineReader {
   std::istringstream words_;
   int number_;
   PenState& pen_;
+  std::set<int>& fingers_;
   std::vector<ScriptStep>& steps_;
 };
 
@@ -273,10 +309,10 @@ Result<std::vector<ScriptStep>> read_input_script(const std::filesystem::path& f
   }
   std::vector<ScriptStep> steps;
   std::string line;
-  PenState pen;
+  LineReader::State state;
   for (int number = 1; std::getline(in, line); ++number) {
     try {
-      LineReader(line, number, pen, steps).read();
+      LineReader(line, number, state, steps).read();
     } catch (const Misread& wrong) {
       return Error{ErrorKind::bad_input,
                    file.string() + ":" + std::to_string(number) + ": " + wrong.what};

@@ -52,6 +52,8 @@ struct ScriptStep {
 ///   pen PRESSURE [eraser]       of all that follows, 0 to 1, with its other end
 ///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach (-1 to 1), for S seconds
 ///                               (0 to 10)
+///   finger N X Y                of a touch screen: comes down there, or moves; N from 1 to 10
+///   finger N up                 leaves
 ///   drop FILE                   shot FILE.png               close
 ///   resize WIDTH HEIGHT         of the window, in pixels of the screen
 ///

@@ -51,6 +51,18 @@ int glfw_modifiers(const Modifiers& modifiers) {
          (modifiers.alt ? GLFW_MOD_ALT : 0);
 }
 
+InputEvent::Kind kind_of(FingerEvent::What what) {
+  switch (what) {
+    case FingerEvent::What::down:
+      return InputEvent::Kind::finger_down;
+    case FingerEvent::What::move:
+      return InputEvent::Kind::finger_move;
+    case FingerEvent::What::up:
+      break;
+  }
+  return InputEvent::Kind::finger_up;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Window>> Window::open(int width, int height, bool has_debug_context) {
@@ -80,7 +92,10 @@ Result<std::unique_ptr<Window>> Window::open(int width, int height, bool has_deb
 }
 
 Window::Window(GLFWwindow* window)
-    : window_(window), pen_(Pen::open()), space_mouse_(SpaceMouse::open()) {
+    : window_(window),
+      pen_(Pen::open()),
+      space_mouse_(SpaceMouse::open()),
+      touch_screen_(TouchScreen::open()) {
   assert(window != nullptr);
   measure();
 }
@@ -170,18 +185,25 @@ std::vector<InputEvent> Window::poll(double wait_s) {
   // Before the motions that the pen's pressure belongs to are taken.
   if (pen_ != nullptr) pen_state_ = pen_->poll().value_or(pen_state_);
   wait(events_.empty() ? wait_s : 0.0);
+  take_fingers();
   measure();
   return std::exchange(events_, {});
 }
 
-/// GLFW does not wake for a 3D mouse, so one that is there is polled a hundred times a second.
+/// GLFW wakes neither for a 3D mouse nor for a second finger: what is there is polled a hundred
+/// times a second.
+bool Window::is_polled() const noexcept {
+  return space_mouse_ != nullptr || (touch_screen_ != nullptr && touch_screen_->is_touched());
+}
+
 void Window::wait(double wait_s) {
   constexpr double kSliceS = 0.01;
   const double until_s = now_s() + wait_s;
   take_space_mouse();
-  while (space_mouse_ != nullptr && events_.empty() && now_s() + kSliceS < until_s) {
+  while (is_polled() && events_.empty() && now_s() + kSliceS < until_s) {
     glfwWaitEventsTimeout(kSliceS);
     take_space_mouse();
+    take_fingers();
   }
   const double rest_s = until_s - now_s();
   if (events_.empty() && rest_s > 0.0) {
@@ -198,6 +220,33 @@ void Window::take_space_mouse() {
     event.x = x_;
     event.y = y_;
     events_.push_back(std::move(event));
+  }
+}
+
+/// Those that came down in this window, where no other lies over it: the pointer follows the first.
+void Window::take_fingers() {
+  if (touch_screen_ == nullptr) return;
+  for (const FingerEvent& told : touch_screen_->poll()) {
+    int left = 0;
+    int top = 0;
+    int wide = 1;
+    int high = 1;
+    glfwGetWindowPos(window_, &left, &top);
+    glfwGetWindowSize(window_, &wide, &high);
+    const double x = told.screen.x - left;
+    const double y = told.screen.y - top;
+    if (told.what == FingerEvent::What::down) {
+      const bool is_in = x >= 0.0 && y >= 0.0 && x < wide && y < high;
+      if (is_in && glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE) {
+        fingers_.insert(told.finger);
+      }
+    }
+    if (fingers_.count(told.finger) == 0) continue;
+    if (told.what == FingerEvent::What::up) fingers_.erase(told.finger);
+    InputEvent& event = push(kind_of(told.what), glfw_modifiers(modifiers_));
+    event.finger = told.finger;
+    event.x = wide > 0 ? x * width_ / wide : x;
+    event.y = high > 0 ? y * height_ / high : y;
   }
 }
 
@@ -231,7 +280,11 @@ void Window::play(const InputEvent& event) {
       callback_of(glfwSetScrollCallback)(window_, 0.0, event.steps);
       break;
     case InputEvent::Kind::puck:
+    case InputEvent::Kind::finger_down:
+    case InputEvent::Kind::finger_move:
+    case InputEvent::Kind::finger_up:
       events_.push_back(event);
+      events_.back().time_s = now_s();
       break;
     case InputEvent::Kind::key_down:
     case InputEvent::Kind::key_up:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "input/input_event.h"
 #include "input/pen.h"
 #include "input/space_mouse.h"
+#include "input/touch_screen.h"
 
 struct GLFWwindow;
 
@@ -62,10 +64,14 @@ class Window {
   void measure();
   void wait(double wait_s);
   void take_space_mouse();
+  void take_fingers();
+  bool is_polled() const noexcept;
 
   GLFWwindow* window_;
-  std::unique_ptr<Pen> pen_;  // null where there is none, as space_mouse_
+  std::unique_ptr<Pen> pen_;  // null where there is none, as the next two
   std::unique_ptr<SpaceMouse> space_mouse_;
+  std::unique_ptr<TouchScreen> touch_screen_;
+  std::set<unsigned> fingers_;  // that came down in this window and are still down
   std::vector<InputEvent> events_;
   PenState pen_state_;  // the newest
   double x_ = 0.0;

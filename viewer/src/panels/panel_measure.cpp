@@ -8,7 +8,7 @@
 
 #include "commands/command.h"
 #include "commands/measure.h"
-#include "commands/measure_marks.h"
+#include "gestures/measure_marks.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"

@@ -18,7 +18,7 @@
 #include "base/text.h"
 #include "commands/command.h"
 #include "commands/piece_edits.h"
-#include "commands/piece_gestures.h"
+#include "gestures/piece_gestures.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"

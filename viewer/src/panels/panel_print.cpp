@@ -7,7 +7,7 @@
 #include <imgui.h>
 
 #include "base/text.h"
-#include "commands/piece_gestures.h"
+#include "gestures/piece_gestures.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"

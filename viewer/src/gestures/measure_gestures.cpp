@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/measure_gestures.h"
+#include "gestures/measure_gestures.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "commands/measure.h"
-#include "commands/measure_marks.h"
+#include "gestures/measure_marks.h"
 
 namespace argil::viewer {
 namespace {

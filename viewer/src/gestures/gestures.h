@@ -4,10 +4,11 @@
 #include <functional>
 #include <optional>
 
-#include "commands/measure_gestures.h"
-#include "commands/piece_gestures.h"
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
+#include "gestures/measure_gestures.h"
+#include "gestures/piece_gestures.h"
+#include "gestures/touch_gestures.h"
 #include "input/input_event.h"
 #include "keys/clutch_key.h"
 #include "picture/surface_probe.h"
@@ -28,7 +29,8 @@ class Gestures {
         document_(document),
         probe_(std::move(probe)),
         pieces_(ui, document),
-        measures_(ui, document) {}
+        measures_(ui, document),
+        touch_(ui, document) {}
 
   /// `is_taken`: a panel has taken the event, so that it begins nothing here.
   void on(const InputEvent& told, bool is_taken);
@@ -70,6 +72,7 @@ class Gestures {
   void move(const InputEvent& event);
   void release(const InputEvent& event);
   void puck(const InputEvent& event);
+  void let_go(double now_s);
   void key(const InputEvent& event, bool is_asked);
   void do_key(const InputEvent& event);
   void escape();
@@ -103,11 +106,13 @@ class Gestures {
   Probe probe_;
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
+  double pressed_s_ = 0.0;                  ///< when it did
   std::optional<OpenStroke> stroke_;
   bool lays_guide_ = false;   ///< a line or a curve is being made a stroke
   bool paints_mask_ = false;  ///< the stroke that was begun last masks, whatever the tool
   PieceGestures pieces_;
   MeasureGestures measures_;
+  TouchGestures touch_;
   std::optional<SurfaceProbe> path_probe_;  ///< of the picture in which a path was begun
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/piece_gestures.h"
+#include "gestures/piece_gestures.h"
 
 #include <cmath>
 #include <utility>

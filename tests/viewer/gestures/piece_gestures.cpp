@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The gizmo under the mouse, and clicks on pieces, against a document that does what it is told.
-#include "commands/piece_gestures.h"
+#include "gestures/piece_gestures.h"
 
 #include <chrono>
 #include <thread>

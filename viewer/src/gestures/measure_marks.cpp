@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/measure_marks.h"
+#include "gestures/measure_marks.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "commands/measure.h"
-#include "commands/piece_gestures.h"
+#include "gestures/piece_gestures.h"
 
 namespace argil::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/gestures.h"
+#include "gestures/gestures.h"
 
 #include <algorithm>
 #include <cassert>
@@ -59,6 +59,7 @@ void Gestures::on(const InputEvent& told, bool is_taken) {
   switch (event.kind) {
     case InputEvent::Kind::press:
       // The click that ends a change of the brush may be anywhere.
+      if (touch_.has_view()) break;
       if ((!is_taken && !is_asked) || ui_.brush_drag) press(event);
       break;
     case InputEvent::Kind::move:
@@ -77,6 +78,11 @@ void Gestures::on(const InputEvent& told, bool is_taken) {
       break;
     case InputEvent::Kind::puck:
       puck(event);
+      break;
+    case InputEvent::Kind::finger_down:
+    case InputEvent::Kind::finger_move:
+    case InputEvent::Kind::finger_up:
+      if (touch_.on(event)) let_go(event.time_s);
       break;
     case InputEvent::Kind::key_down:
       if (!is_taken || is_for_everybody(event, ui_)) key(event, is_asked);
@@ -192,6 +198,7 @@ void Gestures::press(const InputEvent& event) {
     return;
   }
   button_ = event.button;
+  pressed_s_ = event.time_s;
   if (ui_.draws_path && event.button == MouseButton::left && !event.modifiers.alt) {
     begin_path(event);
     return;
@@ -406,6 +413,19 @@ void Gestures::puck(const InputEvent& event) {
   camera.orbit(pixels * event.puck_turn.y, pixels * event.puck_turn.x);
   camera.zoom(std::exp(-kPuckZoom * event.puck_s * event.puck_shift.z),
               {0.5 * camera.width(), 0.5 * camera.height()});
+}
+
+/// A second finger has come: the view is meant. What the first has only just begun is taken back, a
+/// stroke that went on for a while stands.
+void Gestures::let_go(double now_s) {
+  constexpr double kJustBegunS = 0.25;
+  if (drag_ == Drag::stroke && now_s - pressed_s_ > kJustBegunS) {
+    end_stroke();
+  } else if (drag_ != Drag::none && drag_ != Drag::orbit && drag_ != Drag::pan &&
+             drag_ != Drag::hand) {
+    escape();
+  }
+  drag_ = Drag::none;
 }
 
 // ---- strokes -----------------------------------------------------------------------------------

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/gestures.h"
+#include "gestures/gestures.h"
 
 #include <utility>
 #include <vector>
