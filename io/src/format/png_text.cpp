@@ -29,7 +29,7 @@ std::uint32_t chunk_crc(std::string_view name_and_data) {
       crc32_z(0, reinterpret_cast<const Bytef*>(name_and_data.data()), name_and_data.size()));
 }
 
-std::uint32_t number_at(std::string_view bytes, std::size_t at) {
+std::uint32_t chunk_number(std::string_view bytes, std::size_t at) {
   assert(at + 4 <= bytes.size());
   std::uint32_t number = 0;
   for (std::size_t n = 0; n < 4; ++n) {
@@ -83,13 +83,13 @@ std::optional<std::vector<PngText>> texts_of(std::span<const std::byte> png) {
   std::size_t at = kPngSignature;
   while (at < bytes.size()) {
     if (bytes.size() - at < kAroundChunk) return std::nullopt;
-    const std::size_t length = number_at(bytes, at);
+    const std::size_t length = chunk_number(bytes, at);
     if (length > bytes.size() - at - kAroundChunk) return std::nullopt;
     const std::string_view chunk = bytes.substr(at + 4, 4 + length);
     at += kAroundChunk + length;
     if (chunk.starts_with("IEND")) break;
     if (!chunk.starts_with(kTextChunk)) continue;
-    if (chunk_crc(chunk) != number_at(bytes, at - 4)) return std::nullopt;
+    if (chunk_crc(chunk) != chunk_number(bytes, at - 4)) return std::nullopt;
     const std::string_view data = chunk.substr(4);
     const std::size_t end = data.find('\0');
     if (end == std::string_view::npos) return std::nullopt;

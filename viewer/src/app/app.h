@@ -26,6 +26,7 @@
 #include "panels/panels.h"
 #include "picture/renderer.h"
 #include "picture/still.h"
+#include "settings/file_looks.h"
 
 namespace argil::viewer {
 
@@ -99,6 +100,11 @@ class App {
   bool has_ended();
   void drop_untouched();
   void note_recent();
+  void forget_recent();
+  std::vector<std::filesystem::path> listed_files() const;
+  ShownPicture kept_picture(const std::shared_ptr<const ReferencePixels>& pixels);
+  void drop_file(const ShownFile& file);
+  void follow_files();
   void read_wanted_alphas();
   void take_dropped(const std::vector<std::string>& files);
   void take_dropped_alpha();
@@ -122,6 +128,7 @@ class App {
   DocumentThread document_;
   Gui gui_;
   FileList files_;
+  FileLooks looks_;
   Gestures gestures_;
   std::deque<ScriptStep> script_;             ///< what is still to be played
   bool has_script_ = false;                   ///< there was one: the window ends with it

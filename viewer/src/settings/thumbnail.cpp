@@ -72,7 +72,7 @@ std::optional<io::TextedImage> picture_of(const fs::path& folder, const fs::path
   return std::move(read).value();
 }
 
-std::shared_ptr<const ReferencePixels> pixels_of(io::ClearImage&& image) {
+std::shared_ptr<const ReferencePixels> shared_pixels(io::ClearImage&& image) {
   assert(image.width > 0 && image.height > 0);
   return std::make_shared<const ReferencePixels>(
       ReferencePixels{image.width, image.height, std::move(image.rgba)});
@@ -175,11 +175,11 @@ FileLook look_at_file(const PicturePlaces& places, const fs::path& file) {
   look.changed = clock_of(changed);
   look.bytes = stamp->bytes;
   if (auto saved = picture_of(places.saved, file, *stamp)) {
-    look.picture = pixels_of(std::move(saved->image));
+    look.picture = shared_pixels(std::move(saved->image));
   }
   auto work = picture_of(places.work, file, *stamp);
   const auto steps = work ? number_under<std::size_t>(work->texts, kStepsKey) : std::nullopt;
-  if (steps) look.work = WorkPicture{pixels_of(std::move(work->image)), *steps};
+  if (steps) look.work = WorkPicture{shared_pixels(std::move(work->image)), *steps};
   return look;
 }
 
