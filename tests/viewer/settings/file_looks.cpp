@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -10,6 +12,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "argil/engine/render.h"
 
 #include "support/scratch.h"
 
@@ -65,6 +69,28 @@ TEST_F(FileLooksTest, OfAListThatIsClosedOrAnotherOneNoneCome) {
     ASSERT_EQ(all.size(), n % 5 == 0 ? 0U : 1U);
     EXPECT_TRUE(all.empty() || all[0].file == files_[3]);
   }
+}
+
+/// While its picture is unpacked, which takes longer than to close the list.
+TEST_F(FileLooksTest, OfAFileThatIsBeingLookedAtWhenTheListIsClosedNoneComes) {
+  const PicturePlaces places{folder_ / "large", {}};
+  Image noise{1024, 1024, {}};
+  std::uint32_t state = 1;
+  for (int n = 0; n < 3 * 1024 * 1024; ++n) {
+    state = 1664525 * state + 1013904223;
+    noise.rgb.push_back(static_cast<std::uint8_t>(state >> 24U));
+  }
+  const fs::path& file = files_[7];
+  ASSERT_TRUE(write_picture(places.saved, file, stamp_of(file).value(), noise).ok());
+  FileLooks looks(places, [] {});
+  for (int n = 0; n < 10; ++n) {
+    looks.want({file});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    looks.want({});
+    EXPECT_TRUE(all_that_come(looks).empty());
+  }
+  looks.want({file});
+  EXPECT_TRUE(all_that_come(looks).at(0).picture);
 }
 
 TEST_F(FileLooksTest, AreAsTheFilesAreWhenTheyAreWantedAgain) {

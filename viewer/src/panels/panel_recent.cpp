@@ -35,20 +35,30 @@ std::string state_of_recent(const ShownFile* known, bool is_open) {
   return known->look.is_there ? words_of_look(known->look) : "is not there any more";
 }
 
+/// The colours of the name and of what stands below it.
+struct RecentInks {
+  ImU32 name = 0;
+  ImU32 rest = 0;
+};
+RecentInks inks_of_recent(bool is_gone, bool is_lit) {
+  const ImU32 weak = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+  const ImU32 strong = ImGui::GetColorU32(ImGuiCol_Text);
+  // Weak letters cannot be read on a row that is lit.
+  return {is_gone ? weak : strong, is_lit ? strong : weak};
+}
+
 /// Name, folder and state. True where the name or the folder does not fit.
-bool write_recent(const fs::path& file, const std::string& state, bool is_weak, float width,
-                  const ImVec2& low) {
+bool write_recent(const fs::path& file, const std::string& state, const RecentInks& inks,
+                  float width, const ImVec2& low) {
   const float line = ImGui::GetTextLineHeightWithSpacing();
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 weak = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  const ImU32 strong = is_weak ? weak : ImGui::GetColorU32(ImGuiCol_Text);
   const std::string name = file.filename().string();
   const std::string folder = file.parent_path().string();
   const std::string shown_name = fitted(name, width);
   const std::string shown_folder = fitted_end(folder, width);
-  list.AddText(low, strong, shown_name.c_str());
-  list.AddText({low.x, low.y + line}, weak, shown_folder.c_str());
-  list.AddText({low.x, low.y + 2.0F * line}, weak, fitted(state, width).c_str());
+  list.AddText(low, inks.name, shown_name.c_str());
+  list.AddText({low.x, low.y + line}, inks.rest, shown_folder.c_str());
+  list.AddText({low.x, low.y + 2.0F * line}, inks.rest, fitted(state, width).c_str());
   return shown_name != name || shown_folder != folder;
 }
 
@@ -67,9 +77,9 @@ void draw_recent_row(const fs::path& file, const ShownFile* known, bool is_open,
   draw_picture_in(known != nullptr ? known->picture : ShownPicture(), list,
                   {low.x + margin, low.y + margin}, end, known != nullptr ? "no picture" : "");
   const ImVec2 text{end.x + 10.0F * u, low.y + 8.0F * u};
-  const bool is_gone = !is_possible && !is_open;
+  const RecentInks inks = inks_of_recent(!is_possible && !is_open, is_possible && is_hovered);
   const bool is_cut =
-      write_recent(file, state_of_recent(known, is_open), is_gone, high.x - margin - text.x, text);
+      write_recent(file, state_of_recent(known, is_open), inks, high.x - margin - text.x, text);
   if (is_cut && is_hovered) ImGui::SetTooltip("%s", file.string().c_str());
 }
 

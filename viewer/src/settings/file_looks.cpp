@@ -71,11 +71,14 @@ void FileLooks::run() {
       look = {};  // it stands there by its name
     }
     lock.lock();
+    if (list == list_ && !look.file.empty()) {
+      looks_.push_back(std::move(look));
+      has_news_ = true;
+      lock.unlock();
+      on_news_();
+      lock.lock();
+    }
     is_looking_ = false;
-    if (list != list_ || look.file.empty()) continue;
-    looks_.push_back(std::move(look));
-    has_news_ = true;
-    on_news_();
   }
 }
 
