@@ -18,6 +18,8 @@ printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":25,"voxel_
   '{"tool":"add","shape":"ball","radius_mm":2,"radial_symmetry":20,"radial_axis":"z","poses":[[0,25,0,9]]}' \
   > "$work/piece.strokes.jsonl"
 "$argil" sculpt --strokes "$work/piece.strokes.jsonl" -o "$work/piece.vdb" --quiet
+mkdir "$work/sculptures"
+cp "$work/piece.vdb" "$work/sculptures/Knobs.vdb"
 
 picture() { # NAME SIZE SCRIPT [OPTIONS]
   printf '%b\nshot %s\nclose\n' "$3" "$out/$1.png" > "$work/$1.txt"
@@ -65,6 +67,25 @@ picture pieces 1180x660 'settle\nkey Ctrl+P\nkey Shift+G\nframes 3\nclick ##ry\n
 # The head from the front, to sculpt another by.
 "$argil" render "$work/head.vdb" --view front --size 480x480 -o "$work/front.png" --quiet
 picture reference 1180x660 "settle\nkey Num1\nframes 3\ndrop $work/front.png\nframes 5\nclick Sculpt by it as a reference\nframes 5\nclick Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 100\nkey Enter\nmove 760 620\nframes 1000"
+
+# Projects that were open before, by the pictures that closing them made; and the question about work that a window left.
+"$argil" import examples/pebble.ply --resolution 150 -o "$work/sculptures/Pebble.vdb" --quiet
+cp "$work/head.vdb" "$work/sculptures/Head.vdb"
+cp "$work/piece.vdb" "$work/sculptures/Figure.vdb"
+others() { # SCRIPT [FILE]
+  printf '%b\n' "$1" > "$work/others.txt"
+  shift
+  xvfb-run -a -s '-screen 0 1280x800x24' "$argil" view "$@" --home "$work/other" --width 900 --height 600 \
+    --input "$work/others.txt" --quiet
+}
+for name in Knobs Head Pebble Figure; do
+  others 'settle\nkey Ctrl+Q\nframes 3' "$work/sculptures/$name.vdb"
+done
+others "settle\nkey Ctrl+Shift+O\nframes 3\nsettle\nmove 500 310\nframes 5\nshot $out/recent.png"
+echo "$out/recent.png"
+others 'settle\nkey Num1\nsettle\nclick Clay\nframes 3\ndrag left 400 220 480 220 20\nsettle\nframes 3' "$work/sculptures/Head.vdb"
+others "frames 5\nsettle\nframes 5\nsettle\nshot $out/recover.png" "$work/sculptures/Head.vdb"
+echo "$out/recover.png"
 
 # The list of keys, with one that is pressed and means something already.
 picture keys 1100x640 'settle\nkey Shift+F1\nframes 3\nclick Find\nframes 2\ntype view\nframes 3\nclick key wires\nframes 3\nkey X\nframes 3\nmove 700 600\nframes 5'

@@ -2,11 +2,15 @@
 // PNG by libpng's simplified interface, eight bits a channel, sRGB.
 #include "argil/io/png.h"
 
+#include <cassert>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +22,7 @@
 
 #include "file/file_bytes.h"
 #include "file/file_error.h"
+#include "format/png_text.h"
 
 namespace argil::io {
 namespace {
@@ -92,6 +97,22 @@ Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& im
   });
 }
 
+Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& image,
+                                        const std::vector<PngText>& texts,
+                                        const Progress& progress) {
+  return no_throw(name, [&]() -> Result<std::vector<std::byte>> {
+    for (const PngText& text : texts) {
+      if (is_png_text(text)) continue;
+      return Error{ErrorKind::bad_input,
+                   "cannot write '" + name + "': PNG cannot keep the text '" + text.key +
+                       "'; its name needs 1 to 79 printable letters, and it must have no NUL"};
+    }
+    auto packed = pack_png(name, image, progress);
+    if (!packed) return packed.error();
+    return with_texts(std::move(packed).value(), texts);
+  });
+}
+
 Result<void> write_png(const std::filesystem::path& file, const Image& image,
                        const Progress& progress) {
   const auto bytes = pack_png(file.string(), image, progress);
@@ -119,7 +140,9 @@ struct PngHeader {
   PngHeader& operator=(const PngHeader&) = delete;
 };
 
-Result<ClearImage> parse_png(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+Result<ClearImage> parse_png(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                             int most_side) {
+  assert(most_side > 0);
   constexpr std::size_t kSignature = 8;
   if (bytes.size() < kSignature ||
       png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kSignature) != 0) {
@@ -132,11 +155,11 @@ Result<ClearImage> parse_png(const std::filesystem::path& file, std::span<const 
                       std::string(" is damaged (") + image.message + "); save the image again");
   };
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return damaged();
-  constexpr auto kMost = static_cast<png_uint_32>(kMostPngSide);
-  if (image.width > kMost || image.height > kMost) {
+  const auto most = static_cast<png_uint_32>(most_side);
+  if (image.width > most || image.height > most) {
     return file_error(ErrorKind::bad_input, file,
                       " is " + std::to_string(image.width) + " by " + std::to_string(image.height) +
-                          " pixels; each side may be " + std::to_string(kMostPngSide) +
+                          " pixels; each side may be " + std::to_string(most_side) +
                           " at most: make it smaller");
   }
   image.format = PNG_FORMAT_RGBA;
@@ -153,7 +176,31 @@ Result<ClearImage> read_png(const std::filesystem::path& file) {
   return no_throw(file.string(), [&]() -> Result<ClearImage> {
     const auto bytes = read_file_bytes(file);
     if (!bytes) return bytes.error();
-    return parse_png(file, bytes.value());
+    return parse_png(file, bytes.value(), kMostPngSide);
+  });
+}
+
+Result<TextedImage> read_small_png(const std::filesystem::path& file, int most_side) {
+  assert(most_side > 0 && most_side <= kMostPngSide);
+  return no_throw(file.string(), [&]() -> Result<TextedImage> {
+    const auto side = static_cast<std::uintmax_t>(most_side);
+    const std::uintmax_t most_bytes = 8 * side * side + 65536;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error && size > most_bytes) {
+      return file_error(ErrorKind::bad_input, file,
+                        " has " + std::to_string(size) + " bytes; a picture of this kind has " +
+                            std::to_string(most_bytes) + " at most");
+    }
+    const auto bytes = read_file_bytes(file);
+    if (!bytes) return bytes.error();
+    auto image = parse_png(file, bytes.value(), most_side);
+    if (!image) return image.error();
+    auto texts = texts_of(bytes.value());
+    if (!texts) {
+      return file_error(ErrorKind::bad_input, file, " has a damaged text; save the image again");
+    }
+    return TextedImage{std::move(image).value(), std::move(*texts)};
   });
 }
 

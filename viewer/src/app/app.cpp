@@ -69,10 +69,11 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       home_(std::move(home)),
       window_(std::move(window)),
       renderer_(std::move(renderer)),
-      document_({home_, [] { Window::wake(); }}),
+      document_({home_, [] { Window::wake(); }, picture_places(home_, !options_.home.empty())}),
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
+      looks_(picture_places(home_, !options_.home.empty()), [] { Window::wake(); }),
       gestures_(ui_, document_, [this](const Camera::Pixel& pixel) { return probe(pixel); }),
       script_(std::make_move_iterator(script.begin()), std::make_move_iterator(script.end())),
       has_script_(!script_.empty()) {
@@ -117,8 +118,12 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
   open_first();
 }
 
-/// Nobody waits for a picture that is still being written.
-App::~App() { stops_still_ = true; }
+/// Nobody waits for a still that is being written, nor looks on while the picture of the project
+/// that was just saved is.
+App::~App() {
+  stops_still_ = true;
+  window_->hide();
+}
 
 /// What the command line names, else the newest project that a killed window left and that is still
 /// asked about; else nothing, and start_empty() makes a ball.
@@ -223,7 +228,8 @@ Result<void> App::frame() {
   const double now = window_->now_s();
   const double start = now;
   const bool is_due = !waits_for_events() || now >= next_frame_s_;
-  const bool has_news = !events.empty() || document_.has_news() || window_->is_exposed();
+  const bool has_news =
+      !events.empty() || document_.has_news() || looks_.has_news() || window_->is_exposed();
   if (!is_due && !has_news) return {};
   if (has_news) frames_to_settle_ = kFramesToSettle;
   ui_.camera.resize(window_->width(), window_->height());
@@ -256,6 +262,7 @@ Result<void> App::frame() {
   // take_events() went by the panels of the frame before, and another event may not follow.
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
+  follow_files();
   draw_panels();
   read_wanted_alphas();
   const bool has_new_panels = gui_.end_frame();
@@ -266,6 +273,7 @@ Result<void> App::frame() {
   const bool goes_on = has_new_panels && !haptics_->is_running();
   frames_to_settle_ = std::max(frames_to_settle_ - 1, goes_on ? 1 : 0);
   keep_settings();
+  forget_recent();
   note_measurements();
   const RendererCounts former = renderer_->counts();
   if (auto shown = show(picture, owes_panels_ && !may_wait); !shown) return shown;
@@ -677,6 +685,7 @@ void App::draw_panels() {
   draw_status(ui_, last_frame_);
   draw_new_dialog(ui_, document_);
   draw_operations(ui_, document_);
+  draw_recent(ui_, document_);
   draw_import(ui_, document_);
   draw_export(ui_);
   files_.draw(ui_, document_);
@@ -723,7 +732,8 @@ Result<bool> App::play(const ScriptStep& step) {
     wait_frames_ = wait->frames - 1;
   } else if (std::holds_alternative<Settle>(step.what)) {
     // What is shown depends on from where: the thread must have been told.
-    if (!has_started_ || !document_.is_idle() || ui_.task.is_running || !is_view_told()) {
+    if (!has_started_ || !document_.is_idle() || ui_.task.is_running || !is_view_told() ||
+        !looks_.is_idle()) {
       return false;
     }
     wait_frames_ = 2;  // drawn, and its answers shown

@@ -27,6 +27,7 @@
 #include "panels/panels.h"
 #include "picture/renderer.h"
 #include "picture/still.h"
+#include "settings/file_looks.h"
 
 namespace argil::viewer {
 
@@ -100,6 +101,11 @@ class App {
   bool has_ended();
   void drop_untouched();
   void note_recent();
+  void forget_recent();
+  std::vector<std::filesystem::path> listed_files() const;
+  ShownPicture kept_picture(const std::shared_ptr<const ReferencePixels>& pixels);
+  void drop_file(const ShownFile& file);
+  void follow_files();
   void read_wanted_alphas();
   void take_dropped(const std::vector<std::string>& files);
   void take_dropped_alpha();
@@ -124,6 +130,7 @@ class App {
   Gui gui_;
   CutOff cut_off_;
   FileList files_;
+  FileLooks looks_;
   Gestures gestures_;
   std::deque<ScriptStep> script_;             ///< what is still to be played
   bool has_script_ = false;                   ///< there was one: the window ends with it

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the window shows beside the clay: rings, planes, slice, drains, force and path.
 #include <algorithm>
-#include <cmath>
 
 #include "app/app.h"
 #include "base/theme.h"
 #include "commands/command.h"
 #include "gestures/measure_marks.h"
 #include "gestures/piece_gestures.h"
+#include "picture/piece_frame.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -15,15 +15,6 @@ namespace {
 
 const Vec3 kRingColor{1.0, 0.62, 0.35};
 const Vec3 kDrainColor{0.25, 0.6, 1.0};
-
-Vec3 linear_of(const Rgb8& color) {
-  Vec3 linear;
-  for (std::size_t n = 0; n < 3; ++n) {
-    const double c = color[n] / 255.0;
-    linear[n] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  }
-  return linear;
-}
 
 Vec3 place_of(const Paint& opaque) {
   return {static_cast<double>(opaque.r), static_cast<double>(opaque.g),

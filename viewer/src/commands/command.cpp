@@ -398,6 +398,9 @@ void perform(Command command, UiState& ui, DocumentThread& document) {
     case Command::open:
       ui.file_wish = FileWish::open;
       break;
+    case Command::recent:
+      ui.panels.is_recent_open = true;
+      break;
     case Command::import_mesh:
       ui.file_wish = FileWish::import_mesh;
       break;
@@ -448,6 +451,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
   if (ui.clay.left) return Dialog::recover;
   if (ui.asks_to_save) return Dialog::save_first;
   if (ui.file_wish != FileWish::none) return Dialog::file;
+  if (ui.panels.is_recent_open) return Dialog::recent;
   if (ui.panels.is_import_open) return Dialog::import_mesh;
   if (ui.panels.is_export_open) return Dialog::export_mesh;
   if (ui.panels.is_operations_open) return Dialog::operations;
@@ -460,6 +464,7 @@ Dialog open_dialog(const UiState& ui) noexcept {
 bool close_dialogs(UiState& ui) noexcept {
   const bool was_open = open_dialog(ui) != Dialog::none || ui.panels.has_help;
   ui.panels.is_new_open = false;
+  ui.panels.is_recent_open = false;
   ui.panels.is_operations_open = false;
   ui.panels.is_export_open = false;
   ui.panels.is_import_open = false;

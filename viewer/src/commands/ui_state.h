@@ -34,6 +34,7 @@
 #include "picture/still.h"
 #include "settings/alpha_list.h"
 #include "settings/settings.h"
+#include "settings/thumbnail.h"
 
 namespace argil::viewer {
 
@@ -71,6 +72,7 @@ struct PanelState {
   bool has_keys = false;
   bool has_presets = false;
   bool is_new_open = false;
+  bool is_recent_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
   bool is_import_open = false;
@@ -82,6 +84,7 @@ enum class Dialog {
   recover,
   save_first,
   file,
+  recent,
   import_mesh,
   export_mesh,
   operations,
@@ -243,6 +246,27 @@ struct LeftProject {
   std::string state;  ///< the same for a program, to the second
 };
 
+/// A picture that the renderer keeps for panels.
+struct ShownPicture {
+  std::uintptr_t number = 0;  ///< Renderer::keep_image; 0: there is none
+  int width = 0;              ///< pixels
+  int height = 0;
+};
+
+/// A file in a list. The pixels of its pictures are the renderer's.
+struct ShownFile {
+  FileLook look;
+  ShownPicture picture;        ///< as it was saved
+  ShownPicture work;           ///< with steps that are not saved
+  std::size_t work_steps = 0;  ///< that it shows
+};
+
+/// The files of the list that is open.
+struct FileShelf {
+  std::vector<std::filesystem::path> wanted;         ///< in its order
+  std::map<std::filesystem::path, ShownFile> known;  ///< of these, those that were looked at
+};
+
 /// The state of the window: all that neither the document nor the renderer keeps.
 struct UiState {
   Brush brush;
@@ -294,6 +318,9 @@ struct UiState {
   std::optional<std::filesystem::path> dropped_alpha;  ///< to emboss with
 
   std::vector<std::filesystem::path> recent;
+  std::optional<std::filesystem::path> forgotten_recent;  ///< it shall leave that list
+  FileShelf shelf;
+  std::filesystem::path marked_file;       ///< in the dialog that opens a project; "" none
   std::vector<LeftProject> left_projects;  ///< newest first; without the one that is open
   std::filesystem::path folder;            ///< of the last file
   std::vector<Notice> notices;             ///< of the window itself, to be shown

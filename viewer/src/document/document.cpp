@@ -63,6 +63,11 @@ Result<void> leave(io::Session session, const fs::path& file, bool is_untitled) 
   return io::remove_project(file);
 }
 
+/// Of work that is not saved: at least so long between two pictures, and so many times as long as
+/// the last copy took, for which the hand may have had to wait.
+constexpr std::chrono::seconds kPictureEvery(15);
+constexpr int kPictureShare = 500;
+
 void add_count(std::int64_t n, const char* what, std::vector<std::string>& notes) {
   if (n > 0) notes.push_back(std::to_string(n) + " " + what);
 }
@@ -194,6 +199,45 @@ void Document::note_saved() {
   saved_state_ = history_.state();
 }
 
+/// Of the session's, that the file has not.
+std::size_t Document::unsaved_steps() const {
+  assert(session_ && saved_steps_ <= session_->step_count());
+  return session_->step_count() - saved_steps_;
+}
+
+bool Document::wants_picture() {
+  if (!session_ || !pictures_.are_kept() || clay().is_stroke_open()) return false;
+  const std::size_t steps = unsaved_steps();
+  return steps > 0 && steps != pictured_steps_ && std::chrono::steady_clock::now() >= next_picture_;
+}
+
+void Document::take_picture() {
+  assert(has_project());
+  using Clock = std::chrono::steady_clock;
+  pictured_steps_ = unsaved_steps();
+  const Clock::time_point begin = Clock::now();
+  if (auto shot = shoot(sculpture(), view_)) {
+    pictures_.keep_work(file_, *std::move(shot), pictured_steps_);
+  }
+  const Clock::time_point end = Clock::now();
+  next_picture_ = end + std::max<Clock::duration>(kPictureEvery, kPictureShare * (end - begin));
+}
+
+/// Of what is on the disk under file_ now.
+void Document::picture_saved() {
+  pictured_steps_ = 0;
+  if (!pictures_.are_kept()) return;
+  pictures_.forget_work(file_);
+  if (auto shot = shoot(sculpture(), view_)) pictures_.keep_saved(file_, *std::move(shot));
+}
+
+/// Of what the end of the session saves, or has saved without a picture.
+std::optional<PictureShot> Document::shot_before_end() {
+  if (!pictures_.are_kept()) return std::nullopt;
+  if (unsaved_steps() == 0 && pictures_.has_saved(file_)) return std::nullopt;
+  return shoot(sculpture(), view_);
+}
+
 /// What can be reached no more, from here or after deepen(), leaves the list.
 void Document::keep_reachable() {
   if (session_->has_older_steps()) return;
@@ -272,6 +316,10 @@ Result<void> Document::take(io::Session session, fs::path file, bool is_untitled
   session_.emplace(std::move(session));
   history_.clear();
   file_ = std::move(file);
+  // Of work that is here now, or was put aside.
+  pictures_.forget_work(file_);
+  pictured_steps_ = 0;
+  next_picture_ = {};
   is_untitled_ = is_untitled;
   is_only_here_ = false;
   note_saved();
@@ -342,6 +390,7 @@ Result<void> Document::save() {
   }
   if (auto saved = session_->save(); !saved) return saved;
   note_saved();
+  picture_saved();
   return {};
 }
 
@@ -362,10 +411,12 @@ Result<std::vector<std::string>> Document::save_as(const fs::path& file) {
   if (!saved.value().keeps_undo) history_.clear();
   left_behind_ = {};
   if (is_untitled_ && !has_steps_aside(file_)) left_behind_ = io::remove_project(file_);
+  pictures_.forget_work(file_);
   file_ = file;
   is_untitled_ = false;
   is_only_here_ = false;
   note_saved();
+  picture_saved();
   return std::move(saved).value().notes;
 }
 
@@ -375,10 +426,13 @@ Result<void> Document::end(bool saves) {
   left_behind_ = {};
   // Without saving a named project stays as it was saved last, and one without a name is removed.
   if (saves && !is_untitled_) {
+    auto shot = shot_before_end();
     if (auto closed = session_->close(); !closed) return closed;
+    if (shot) pictures_.keep_saved(file_, *std::move(shot));
   } else {
     left_behind_ = leave(std::move(*session_), file_, is_untitled_);
   }
+  pictures_.forget_work(file_);
   session_.reset();
   history_.clear();
   file_.clear();

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cassert>
+#include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,6 +16,7 @@
 #include "argil/mesh/close.h"
 
 #include "document/mesh_offer.h"
+#include "document/project_pictures.h"
 #include "document/step_history.h"
 
 namespace argil::viewer {
@@ -24,7 +27,10 @@ namespace argil::viewer {
 /// Threads  the document thread.
 class Document {
  public:
-  explicit Document(std::filesystem::path home) : home_(std::move(home)) {}
+  /// Pictures of what is saved are kept there, and of work that is not, from time to time; without
+  /// places none are.
+  explicit Document(std::filesystem::path home, PicturePlaces places = {})
+      : home_(std::move(home)), pictures_(std::move(places)) {}
 
   bool has_project() const noexcept { return session_.has_value(); }
   /// Where has_project().
@@ -60,6 +66,17 @@ class Document {
   io::HistorySize history_size() const { return session_->history_size(); }
   /// Errors  as Session::forget_history; bad_input for what has changes that are not saved.
   Result<void> forget_history();
+
+  // Pictures of the project, for lists of files and for who asks what a killed window left.
+
+  /// From where they show it, from now on.
+  void look_from(const DisplayView& view) noexcept { view_ = view; }
+  /// Whether steps that are not saved are to be pictured now: of the first one at once, then a few
+  /// times a minute. Not while a stroke is open.
+  bool wants_picture();
+  void take_picture();
+  /// Of a project that is gone.
+  void forget_picture(const std::filesystem::path& project) { pictures_.forget_work(project); }
 
   /// What the disk last refused: of the session, or of the clean-up behind the one before.
   Result<void> problem() const;
@@ -101,8 +118,12 @@ class Document {
   Result<void> start_untitled(Sculpture sculpture, bool saves_former);
   void keep_reachable();
   void note_saved();
+  std::size_t unsaved_steps() const;
+  std::optional<PictureShot> shot_before_end();
+  void picture_saved();
 
   std::filesystem::path home_;
+  ProjectPictures pictures_;  ///< outlives the session, whose journal is whole before it waits
   std::optional<io::Session> session_;
   StepHistory history_;
   std::filesystem::path file_;
@@ -111,6 +132,9 @@ class Document {
   bool has_unread_steps_ = false;
   std::size_t saved_steps_ = 0;               ///< of the session's, in the file
   std::optional<std::uint64_t> saved_state_;  ///< of history_, in the file; nothing: none of it
+  std::optional<DisplayView> view_;
+  std::size_t pictured_steps_ = 0;  ///< of unsaved_steps()
+  std::chrono::steady_clock::time_point next_picture_;
   Result<void> left_behind_;  ///< whether what was left without saving could be cleaned up
 };
 

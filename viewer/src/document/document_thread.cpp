@@ -42,7 +42,7 @@ DocumentThread::~DocumentThread() {
 }
 
 void DocumentThread::run() {
-  DocumentWorker worker(outbox_, options_.home);
+  DocumentWorker worker(outbox_, options_.home, options_.places);
   std::unique_lock lock(mutex_);
   for (;;) {
     const auto has_something = [this] {

@@ -18,6 +18,7 @@
 #include "document/measure_pick.h"
 #include "document/outbox.h"
 #include "document/request.h"
+#include "settings/thumbnail.h"
 
 namespace argil::viewer {
 
@@ -25,6 +26,7 @@ struct DocumentThreadOptions {
   std::filesystem::path home;  ///< a folder for what has no name yet
   /// Called on the thread when there is something to take, once until the blocks are taken.
   std::function<void()> on_news = {};
+  PicturePlaces places = {};  ///< of pictures of projects; none: none are kept
 };
 
 /// A thread that owns the document (clay and session), does what is requested in order, and answers

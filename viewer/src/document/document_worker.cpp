@@ -364,7 +364,7 @@ Result<int> DocumentWorker::queue(const std::vector<StrokeSample>& samples) {
 
 bool DocumentWorker::has_backlog() {
   if (preview_) return is_preview_ending_ || has_dabs_to_work();
-  return is_sketched_ || document_.has_unread_steps();
+  return is_sketched_ || document_.has_unread_steps() || wants_picture();
 }
 
 /// What the end of the stroke does anew is not worked before: that would only keep the preview, and
@@ -381,6 +381,7 @@ bool DocumentWorker::work_backlog() {
     named_changes_ = -1;
     return true;
   }
+  if (!preview_ && !is_sketched_ && wants_picture()) document_.take_picture();
   if (!preview_) return is_sketched_;
   if (has_dabs_to_work()) {
     const auto worked = document_.clay().work_stroke();
@@ -590,24 +591,6 @@ void DocumentWorker::on(const NewClay& make) {
   clay_changed_hands();
 }
 
-/// True when the user has to decide first what becomes of left steps.
-bool DocumentWorker::asks_about_left_steps(const OpenFile& open) {
-  if (open.left != OpenFile::Left::ask) return false;
-  if (io::is_in_session(open.file)) return false;  // its steps are not left: a window is at work
-  // Looking for them reads the whole project.
-  std::error_code error;
-  if (!fs::exists(journal_of(open.file), error)) {
-    if (!document_.is_without_name(open.file) || !has_steps_aside(open.file)) return false;
-    const auto written = fs::last_write_time(open.file, error);
-    left_ = LeftQuestion{open, {0, std::chrono::file_clock::to_sys(written)}};
-    return true;
-  }
-  const auto found = io::left_steps(open.file);
-  if (!found || !found.value()) return false;  // opening says what is wrong
-  left_ = LeftQuestion{open, *found.value()};
-  return true;
-}
-
 void DocumentWorker::on(const OpenFile& open) {
   left_.reset();
   if (document_.has_project()) end_open_stroke();
@@ -655,15 +638,6 @@ void DocumentWorker::on(const ImportMesh& wanted) {
   clay_changed_hands();
   post_all(imported.value());
   post(Notice::Kind::done, "imported " + file_in_quotes(wanted.file));
-}
-
-void DocumentWorker::on(const DropProject& drop) {
-  left_.reset();
-  outbox_.begin_silent_task("throw away");
-  const auto removed = io::remove_project(drop.file);
-  outbox_.end_task();
-  if (!removed) return complain(removed.error());
-  post(Notice::Kind::done, "threw away " + file_in_quotes(drop.file));
 }
 
 void DocumentWorker::on(const LoadStamp& load) {

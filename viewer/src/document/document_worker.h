@@ -24,15 +24,17 @@ namespace argil::viewer {
 /// Threads  the document thread alone.
 class DocumentWorker {
  public:
-  /// `home`: a folder for what has no name yet.
-  DocumentWorker(Outbox& outbox, const std::filesystem::path& home)
-      : outbox_(outbox), document_(home) {}
+  /// `home`: a folder for what has no name yet. `places`: as of Document.
+  DocumentWorker(Outbox& outbox, const std::filesystem::path& home,
+                 const PicturePlaces& places = {})
+      : outbox_(outbox), document_(home, places) {}
 
   void perform(Request request);
   /// Brings blocks, state and slice up to date with the clay, and posts them.
   void show();
   void look(const DisplayView& view) {
     view_ = view;
+    document_.look_from(view);
     looks_at_all_ = true;
   }
   void cut(const std::optional<SlicePlane>& plane);
@@ -44,9 +46,11 @@ class DocumentWorker {
 
   /// What is done when no request waits: a large stroke is shown as a preview, and dabs of the clay
   /// itself still wait; or a clay that has just come is shown by its coarse levels alone; or the
-  /// names of its older steps are not read. While a large tool is held still there is none.
+  /// names of its older steps are not read, or its picture is due. While a large tool is held still
+  /// there is none.
   bool has_backlog();
-  /// Applies one of these dabs, or reads the names; true when there is something to show.
+  /// Applies one of these dabs, reads the names, or pictures the work; true when there is something
+  /// to show.
   bool work_backlog();
   /// Shown in detail it will be as the window sees it: worth waiting for the window to say so.
   bool waits_for_view() const noexcept { return is_sketched_; }
@@ -103,6 +107,8 @@ class DocumentWorker {
   bool apply_history(io::HistoryStep move);
   Result<int> queue(const std::vector<StrokeSample>& samples);
   bool has_dabs_to_work();
+  /// A device's hand does not wait for pictures: what it feels must not grow old.
+  bool wants_picture() { return !link_ && document_.wants_picture(); }
   void drop_preview();
   void clay_changed_hands();
   void let_go_of_hand();

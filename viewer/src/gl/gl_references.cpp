@@ -33,6 +33,23 @@ void main() {
 
 }  // namespace
 
+GlTexture texture_of(ObjectCount& count, const ReferencePixels& pixels) {
+  assert(pixels.width > 0 && pixels.height > 0);
+  assert(pixels.rgba.size() ==
+         4 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
+  GlTexture texture(count);
+  bind_texture(0, texture.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, pixels.width, pixels.height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, pixels.rgba.data());
+  set_texture(GL_LINEAR);
+  // What is drawn smaller than it is would glitter.
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  bind_texture(0, 0);
+  return texture;
+}
+
 Result<GlReferences> GlReferences::make(ObjectCount& count) {
   GlReferences made;
   auto program =
@@ -47,19 +64,9 @@ void GlReferences::take(ObjectCount& count, const std::vector<ReferenceMark>& ma
   // First: another image may have the address of one that is gone.
   std::erase_if(textures_, [](const auto& kept) { return kept.second.pixels.expired(); });
   for (const ReferenceMark& mark : marks) {
-    assert(mark.pixels && mark.pixels->width > 0 && mark.pixels->height > 0);
+    assert(mark.pixels);
     if (textures_.contains(mark.pixels.get())) continue;
-    GlTexture texture(count);
-    bind_texture(0, texture.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, mark.pixels->width, mark.pixels->height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, mark.pixels->rgba.data());
-    set_texture(GL_LINEAR);
-    // What is drawn smaller than it is would glitter.
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    bind_texture(0, 0);
-    textures_.emplace(mark.pixels.get(), Kept{mark.pixels, std::move(texture)});
+    textures_.emplace(mark.pixels.get(), Kept{mark.pixels, texture_of(count, *mark.pixels)});
   }
 }
 

@@ -14,6 +14,9 @@
 
 namespace argil::viewer {
 
+/// An image as a texture, for drawing it also much smaller than it is. Leaves none bound.
+GlTexture texture_of(ObjectCount& count, const ReferencePixels& pixels);
+
 /// Draws reference images. Each is uploaded when a picture first shows it, and kept while anything
 /// has its pixels: a view that is looked into again does not wait for them.
 class GlReferences {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -133,6 +134,19 @@ class GlRenderer final : public Renderer {
     touched_.add(piece, block.bounds_mm);
     return blocks.put(block);
   }
+  std::uintptr_t keep_image(const ReferencePixels& pixels) override {
+    reset_state();  // no buffer that Dear ImGui or a pass left bound is read instead
+    GlTexture texture = texture_of(*count_, pixels);
+    const std::uintptr_t number = texture.name();
+    images_.emplace(number, std::move(texture));
+    return number;
+  }
+  void drop_image(std::uintptr_t number) override {
+    const auto known = images_.find(number);
+    assert(known != images_.end());
+    images_.erase(known);
+  }
+
   void drop(PieceKey piece, const BlockId& id) override {
     const auto known = pieces_.find(piece);
     if (known == pieces_.end()) return;
@@ -174,6 +188,7 @@ class GlRenderer final : public Renderer {
   std::unique_ptr<GlDebug> debug_;
   std::unique_ptr<ObjectCount> count_;  ///< before all that it counts
   Passes passes_;
+  std::map<std::uintptr_t, GlTexture> images_;  ///< for panels
   std::map<PieceKey, GlBlocks> pieces_;
   bool has_coarse_;
   GlTargets targets_;

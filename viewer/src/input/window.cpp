@@ -310,6 +310,8 @@ void Window::play(const InputEvent& event) {
 void Window::wake() noexcept { glfwPostEmptyEvent(); }
 void Window::swap() { glfwSwapBuffers(window_); }
 void Window::set_swap_interval(int frames) { glfwSwapInterval(frames); }
+void Window::hide() { glfwHideWindow(window_); }
+
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 void Window::resize(int width, int height) { glfwSetWindowSize(window_, width, height); }
 double Window::now_s() const { return glfwGetTime(); }

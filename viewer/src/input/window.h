@@ -44,6 +44,8 @@ class Window {
   void swap();
   void set_swap_interval(int frames);
   void set_title(const std::string& title);
+  /// Nobody sees it any more, though what was begun for it still ends.
+  void hide();
   /// As a user would who drags its corner; the system may decide otherwise.
   void resize(int width, int height);
   double now_s() const;

@@ -19,6 +19,7 @@
 
 ARGIL_COMMAND(new_clay, "File", "New...", "Ctrl+N", "Ctrl+N", "Ctrl+N")
 ARGIL_COMMAND(open, "File", "Open...", "Ctrl+O", "Ctrl+O", "Ctrl+O")
+ARGIL_COMMAND(recent, "File", "Recent files...", "Ctrl+Shift+O", "Ctrl+Shift+O", "Ctrl+Shift+O")
 ARGIL_COMMAND(import_mesh, "File", "Import mesh...", "Ctrl+I", "Ctrl+Shift+I", "Ctrl+Shift+I")
 ARGIL_COMMAND(save, "File", "Save", "Ctrl+S", "Ctrl+S", "Ctrl+S")
 ARGIL_COMMAND(save_as, "File", "Save as...", "Ctrl+Shift+S", "Ctrl+Shift+S", "Ctrl+Shift+S")

@@ -14,6 +14,7 @@
 #include "commands/command.h"
 #include "commands/references.h"
 #include "panels/dialog.h"
+#include "panels/file_picture.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 
@@ -106,6 +107,28 @@ void take_path(const fs::path& file, UiState& ui, DocumentThread& document) {
   }
 }
 
+constexpr float kMarkedWidth = 208.0F;  // units, of the picture beside the list
+
+/// The picture of the project that is marked, and what the list does not say of it.
+void draw_marked_file(const UiState& ui) {
+  const float width = kMarkedWidth * unit();
+  const float height = width * kThumbnailHeight / kThumbnailWidth;
+  ImGui::BeginGroup();
+  ImGui::Dummy({width, height});
+  const ShownFile* known = known_file(ui, ui.marked_file);
+  if (!ui.marked_file.empty()) {
+    draw_picture_in(known != nullptr ? known->picture : ShownPicture(), *ImGui::GetWindowDrawList(),
+                    ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                    known != nullptr ? "no picture" : "");
+  }
+  if (known != nullptr && known->look.is_there) {
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    ImGui::TextUnformatted(words_of_look(known->look).c_str());
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::EndGroup();
+}
+
 }  // namespace
 
 void FileList::start(UiState& ui) {
@@ -147,11 +170,14 @@ void FileList::read_folder() {
 }
 
 void FileList::draw(UiState& ui, DocumentThread& document) {
+  ui.marked_file.clear();
   if (ui.file_wish == FileWish::none) system_.close();
   if (ui.file_wish != FileWish::none && wish_ != ui.file_wish) start(ui);
   const bool is_asked = open_dialog(ui) == Dialog::file;
   const float height = std::min(460.0F, 0.9F * ImGui::GetIO().DisplaySize.y / unit());
-  const DialogLayout layout{false, 560.0F, system_.is_open() ? 0.0F : height};
+  const bool has_picture = wish_ == FileWish::open && !system_.is_open();
+  const DialogLayout layout{false, has_picture ? 640.0F : 560.0F,
+                            system_.is_open() ? 0.0F : height};
   bool is_open = true;
   const bool is_drawn = begin_dialog(title_of(wish_), is_asked, &is_open, layout);
   if (is_drawn && system_.is_open()) {
@@ -176,7 +202,9 @@ void FileList::draw_waiting(UiState& ui, DocumentThread& document, bool& is_open
 
 void FileList::draw_list(UiState& ui, DocumentThread& document, bool& is_open) {
   ImGui::TextDisabled("%s", folder_.string().c_str());
-  ImGui::BeginChild("list", {0.0F, -2.6F * ImGui::GetFrameHeight()}, true);
+  const bool has_picture = wish_ == FileWish::open;
+  const float beside = has_picture ? kMarkedWidth * unit() + ImGui::GetStyle().ItemSpacing.x : 0.0F;
+  ImGui::BeginChild("list", {-beside, -2.6F * ImGui::GetFrameHeight()}, true);
   std::optional<fs::path> into;
   if (choice("..", false)) into = folder_.parent_path();
   for (const fs::path& folder : folders_) {
@@ -190,6 +218,12 @@ void FileList::draw_list(UiState& ui, DocumentThread& document, bool& is_open) {
     if (!writes && ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) finish(ui, document);
   }
   ImGui::EndChild();
+  if (has_picture) {
+    const fs::path file = chosen();
+    if (!name_.empty() && extension_of(file) == ".vdb") ui.marked_file = file;
+    ImGui::SameLine();
+    draw_marked_file(ui);
+  }
   ImGui::SetNextItemWidth(-1.0F);
   // Whoever is asked for a name types one at once; what is offered is chosen whole.
   if (writes && ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();

@@ -3,10 +3,22 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <utility>
 
 #include "panels/gui.h"
 
 namespace argil::viewer {
+namespace {
+
+/// A byte of UTF-8 that goes on with the letter of the one before.
+bool is_inside_letter(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U; }
+
+bool fits_into(const std::string& text, float width) {
+  return ImGui::CalcTextSize(text.c_str()).x <= width;
+}
+
+}  // namespace
 
 float unit() { return ImGui::GetFontSize() / kLetterPixels; }
 
@@ -18,6 +30,26 @@ double scale_of_panels(double content_scale, int percent, int width, int height)
   const double room = std::min(width / kRoomWidth, height / kRoomHeight);
   const double wanted = content_scale * percent / 100.0;
   return std::max(kLeastScale, std::min(wanted, room));
+}
+
+std::string fitted(std::string text, float width) {
+  if (fits_into(text, width)) return text;
+  while (!text.empty() && !fits_into(text + "...", width)) {
+    while (text.size() > 1 && is_inside_letter(text.back())) text.pop_back();
+    text.pop_back();
+  }
+  return std::move(text) + "...";
+}
+
+std::string fitted_end(std::string text, float width) {
+  if (fits_into(text, width)) return text;
+  std::size_t from = 0;
+  const auto end_from = [&](std::size_t at) { return std::string("...") + text.substr(at); };
+  while (from < text.size() && !fits_into(end_from(from), width)) {
+    ++from;
+    while (from < text.size() && is_inside_letter(text[from])) ++from;
+  }
+  return end_from(from);
 }
 
 void keep_on_screen(float width) {

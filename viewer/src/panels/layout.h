@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include <imgui.h>
 
 namespace argil::viewer {
@@ -13,6 +15,11 @@ float unit();
 /// times what the user chose, but no larger than that a window of this size has room for all
 /// panels.
 double scale_of_panels(double content_scale, int percent, int width, int height);
+
+/// As many letters of a text as fit into so many pixels, from its beginning or to its end, with
+/// dots for the others.
+std::string fitted(std::string text, float width);
+std::string fitted_end(std::string text, float width);
 
 /// The colour of what stops the force, or tells that it is stopped.
 inline const ImVec4 kStopColor{0.75F, 0.10F, 0.08F, 1.0F};

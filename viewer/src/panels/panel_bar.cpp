@@ -87,20 +87,9 @@ void draw_left(UiState& ui, DocumentThread& document) {
   if (chosen) open_file(*chosen, ui, document);
 }
 
-void draw_recent(UiState& ui, DocumentThread& document) {
-  if (ui.recent.empty() || !begin_menu("Recent")) return;
-  std::optional<std::filesystem::path> chosen;
-  for (const auto& file : ui.recent) {
-    if (menu_item(file.string().c_str(), nullptr, false, true)) chosen = file;
-  }
-  ImGui::EndMenu();
-  if (chosen) open_file(*chosen, ui, document);
-}
-
 /// Files that can be opened again, above Quit.
 void draw_files(UiState& ui, DocumentThread& document) {
   ImGui::Separator();
-  draw_recent(ui, document);
   draw_left(ui, document);
   ImGui::Separator();
 }

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstdio>
 #include <optional>
-#include <utility>
 
 #include <imgui.h>
 
@@ -150,101 +149,6 @@ void draw_save_question(UiState& ui, DocumentThread& document) {
   if (button("Back")) {
     ui.asks_to_save = false;
     ui.after_saving = AfterSaving::nothing;
-  }
-  end_dialog();
-}
-
-namespace {
-
-/// The others that were left, to be asked about instead.
-void draw_other_left(const UiState& ui, DocumentThread& document) {
-  assert(ui.clay.left);
-  const OpenFile& asked = ui.clay.left->asked;
-  bool is_first = true;
-  for (const LeftProject& left : ui.left_projects) {
-    if (left.file == asked.file) continue;
-    if (std::exchange(is_first, false)) {
-      ImGui::Separator();
-      ImGui::TextUnformatted("Also never saved, and in the File menu from now on:");
-    }
-    if (choice(left.text.c_str(), false)) document.send(OpenFile{left.file, asked.saves_former});
-  }
-}
-
-/// The project that is asked about, where it has no name yet: only then may the window drop it.
-const LeftProject* left_without_name(const UiState& ui) {
-  for (const LeftProject& left : ui.left_projects) {
-    if (left.file == ui.clay.left->asked.file) return &left;
-  }
-  return nullptr;
-}
-
-/// What a killed window left, in a sentence or two.
-std::string words_about(const LeftQuestion& left) {
-  const std::string name = left.asked.file.filename().string();
-  if (left.left.steps == 0) {
-    return name + " has no name yet. Steps that were not recovered are kept beside it.";
-  }
-  return name + " was not closed: " + std::to_string(left.left.steps) +
-         (left.left.steps == 1 ? " step was" : " steps were") + " not saved, the last one at " +
-         clock_text(left.left.newest, "%d %B %Y, %H:%M") + ".";
-}
-
-/// Nothing brings it back, so it is asked for twice.
-void draw_drop_question(UiState& ui, DocumentThread& document) {
-  assert(ui.clay.left && ui.asks_to_drop);
-  const LeftQuestion& left = *ui.clay.left;
-  say_wrapped(left.asked.file.filename().string() +
-              " and every step kept for it are removed, and nothing brings them back.");
-  // Under the pointer that has just clicked, so that a double click does no harm.
-  const double as_wide_as_both_before = 216.0 * static_cast<double>(unit());
-  if (button("Keep it", as_wide_as_both_before)) ui.asks_to_drop = false;
-  ImGui::SameLine();
-  if (button("Throw it away for good")) {
-    ui.asks_to_drop = false;
-    document.send(DropProject{left.asked.file});
-  }
-}
-
-void draw_left_answers(UiState& ui, DocumentThread& document) {
-  assert(ui.clay.left);
-  const LeftQuestion& left = *ui.clay.left;
-  // The same request again, now with an answer.
-  const auto answer = [&](OpenFile::Left word) {
-    OpenFile again = left.asked;
-    again.left = word;
-    document.send(again);
-  };
-  if (left.left.steps > 0) {
-    if (button("Recover")) answer(OpenFile::Left::repeat);
-    ImGui::SameLine();
-  }
-  if (button("Open as it was saved")) answer(OpenFile::Left::put_aside);
-  ImGui::SameLine();
-  if (button("Not now")) document.send(ForgetQuestion{});
-  if (const LeftProject* unnamed = left_without_name(ui)) {
-    if (button("Ask no more")) {
-      ui.settings.unasked.push_back(unnamed->state);
-      document.send(ForgetQuestion{});
-    }
-    ImGui::SameLine();
-    if (button("Throw it away...")) ui.asks_to_drop = true;
-    ImGui::TextDisabled("Asked about no more, it stays in the File menu.");
-  }
-  ImGui::TextDisabled("What is not recovered is kept beside the project.");
-}
-
-}  // namespace
-
-void draw_left_question(UiState& ui, DocumentThread& document) {
-  const DialogLayout layout{false, 440.0F, 0.0F};
-  if (!begin_dialog("Recover?", open_dialog(ui) == Dialog::recover, nullptr, layout)) return;
-  if (ui.asks_to_drop) {
-    draw_drop_question(ui, document);
-  } else {
-    say_wrapped(words_about(*ui.clay.left));
-    draw_left_answers(ui, document);
-    draw_other_left(ui, document);
   }
   end_dialog();
 }

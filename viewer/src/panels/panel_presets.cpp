@@ -28,19 +28,6 @@ const ToolInfo* tool_of_preset(const BrushPreset& preset) {
   return nullptr;
 }
 
-/// As many letters of a name as fit.
-std::string fitted(std::string name, float width) {
-  if (ImGui::CalcTextSize(name.c_str()).x <= width) return name;
-  while (!name.empty() && ImGui::CalcTextSize((name + "...").c_str()).x > width) {
-    // A letter of UTF-8 goes as a whole.
-    while (name.size() > 1 && (static_cast<unsigned char>(name.back()) & 0xC0U) == 0x80U) {
-      name.pop_back();
-    }
-    name.pop_back();
-  }
-  return name + "...";
-}
-
 /// Its tool's picture with the name below and its key in the corner.
 void draw_preset(const BrushPreset& preset, UiState& ui) {
   const float u = unit();

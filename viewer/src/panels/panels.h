@@ -61,6 +61,7 @@ void draw_messages(UiState& ui, MessageLog& log);
 void draw_task(const UiState& ui, DocumentThread& document);
 void draw_new_dialog(UiState& ui, DocumentThread& document);
 void draw_operations(UiState& ui, DocumentThread& document);
+void draw_recent(UiState& ui, DocumentThread& document);
 void draw_import(UiState& ui, DocumentThread& document);
 void draw_export(UiState& ui);
 void draw_save_question(UiState& ui, DocumentThread& document);

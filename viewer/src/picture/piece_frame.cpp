@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace argil::viewer {
@@ -145,6 +146,15 @@ Vec3 turns_of(const Quat& orientation) noexcept {
   }
   // Without the sign that a zero may have got.
   return turns / kDegree + Vec3{};
+}
+
+Vec3 linear_of(const Rgb8& color) noexcept {
+  Vec3 linear;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const double c = color[n] / 255.0;
+    linear[n] = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  }
+  return linear;
 }
 
 }  // namespace argil::viewer

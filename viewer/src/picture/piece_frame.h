@@ -41,6 +41,9 @@ Placement scaled_about(const Placement& placement, const Vec3& point_mm, double 
 /// What a lens sees where all lengths are divided by `scale`, above 0: the same picture.
 Lens shrunk(Lens lens, double scale) noexcept;
 
+/// A piece's colour in linear light, as renderers take it.
+Vec3 linear_of(const Rgb8& color) noexcept;
+
 /// Turns about the sculpture's x, then y, then z, in degrees (Blender's XYZ), and back: x and z
 /// from -180 to 180, y from -90 to 90; where y is 90 either way, z is 0.
 Quat orientation_of(const Vec3& turns_deg) noexcept;

@@ -185,6 +185,11 @@ class Renderer {
   virtual void drop(PieceKey piece) = 0;  ///< all of its blocks
   virtual void clear() = 0;               ///< drops all blocks
 
+  /// Keeps an image for panels; its number for Dear ImGui, never 0, which no other one has as long
+  /// as it is kept.
+  virtual std::uintptr_t keep_image(const ReferencePixels& pixels) = 0;
+  virtual void drop_image(std::uintptr_t number) = 0;  ///< that was given (assert)
+
   /// Draws into a framebuffer (0: the window) of this size in pixels, and clears it before. A
   /// picture that it holds it only shows again.
   /// Errors  device where the driver cannot draw a picture of that size; the framebuffer is cleared

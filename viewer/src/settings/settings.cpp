@@ -102,14 +102,29 @@ std::vector<fs::path> read_recent(const fs::path& home) {
   return files;
 }
 
+namespace {
+
+Result<void> write_recent_files(const fs::path& home, const std::vector<fs::path>& recent) {
+  std::string lines;
+  for (const fs::path& name : recent) lines.append(name.string()).append("\n");
+  return write_lines(home, kRecentFile, lines);
+}
+
+}  // namespace
+
 Result<void> add_recent(const fs::path& home, const fs::path& file, std::vector<fs::path>& recent) {
   recent = read_recent(home);
   std::erase(recent, file);
   recent.insert(recent.begin(), file);
   if (recent.size() > kMostRecent) recent.resize(kMostRecent);
-  std::string lines;
-  for (const fs::path& name : recent) lines.append(name.string()).append("\n");
-  return write_lines(home, kRecentFile, lines);
+  return write_recent_files(home, recent);
+}
+
+Result<void> remove_recent(const fs::path& home, const fs::path& file,
+                           std::vector<fs::path>& recent) {
+  recent = read_recent(home);
+  std::erase(recent, file);
+  return write_recent_files(home, recent);
 }
 
 }  // namespace argil::viewer

@@ -45,5 +45,8 @@ std::vector<std::filesystem::path> read_recent(const std::filesystem::path& home
 /// is in `recent` also where it could not be written. Errors  as io::replace_file.
 Result<void> add_recent(const std::filesystem::path& home, const std::filesystem::path& file,
                         std::vector<std::filesystem::path>& recent);
+/// Takes a file out of it, in the same way.
+Result<void> remove_recent(const std::filesystem::path& home, const std::filesystem::path& file,
+                           std::vector<std::filesystem::path>& recent);
 
 }  // namespace argil::viewer

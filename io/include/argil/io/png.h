@@ -24,6 +24,19 @@ Result<void> write_png(const std::filesystem::path& file, const Image& image,
 Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& image,
                                         const Progress& progress = {});
 
+/// A word about an image, as PNG has it in a tEXt chunk.
+struct PngText {
+  std::string key;   ///< 1 to 79 printable letters of Latin-1, without blanks at the ends
+  std::string text;  ///< Latin-1 without NUL
+  friend bool operator==(const PngText&, const PngText&) = default;
+};
+
+/// As pack_png, with texts before the pixels.
+/// Errors  also bad_input, naming the key: a text that PNG cannot keep.
+Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& image,
+                                        const std::vector<PngText>& texts,
+                                        const Progress& progress = {});
+
 /// An image with transparency: four bytes a pixel, red, green, blue and opacity, in sRGB, rows from
 /// the top.
 struct ClearImage {
@@ -39,5 +52,17 @@ inline constexpr int kMostPngSide = 8192;
 /// Errors  bad_input naming the file: no PNG; a side of more than kMostPngSide, before any pixel is
 ///         unpacked; damaged or cut off, in libpng's words. disk, memory.
 Result<ClearImage> read_png(const std::filesystem::path& file);
+
+/// A PNG with its texts; what is compressed or of many languages (zTXt, iTXt) is left out.
+struct TextedImage {
+  ClearImage image;
+  std::vector<PngText> texts;  ///< in the order of the file
+};
+
+/// The same of a small picture that anybody may have written, within bounds: nothing is unpacked of
+/// one whose sides are above `most_side`, or of a file of more than 8 bytes for each pixel of such
+/// a picture and 64 KB.
+/// Errors  as read_png, with these bounds in the place of its own; also for a damaged text.
+Result<TextedImage> read_small_png(const std::filesystem::path& file, int most_side);
 
 }  // namespace argil::io

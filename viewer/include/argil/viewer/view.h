@@ -48,8 +48,9 @@ struct ViewOptions {
   /// does meanwhile counts too. All of it is read before the window opens.
   std::filesystem::path input;
 
-  /// Where what has no name yet, settings, printers and the list of recent files are kept; "": the
-  /// user's own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil.
+  /// Where what has no name yet, settings, printers and the list of recent files are kept, and
+  /// pictures of these; "": the user's own folder, $XDG_DATA_HOME/argil or ~/.local/share/argil,
+  /// with the pictures of what is saved in the desktop's cache of thumbnails.
   std::filesystem::path home;
 
   /// The status line says how long after an input its dab was on the screen (ViewReport has it
@@ -113,8 +114,9 @@ struct ViewReport {
 ///          `checks_gl` found, and for what a library threw. The clay is in its journal after each.
 /// Threads  the main one, as window systems ask for; one window at a time. Starts the thread that
 ///          owns the clay, and with a device the servo's; a Falcon has its own.
-/// Files    everything under `home`, the project that is open and its journal; other files where
-///          the user says.
+/// Files    everything under `home`, the project that is open and its journal; pictures in
+///          $XDG_CACHE_HOME/thumbnails or ~/.cache/thumbnails, where `home` is ""; other files
+///          where the user says.
 Result<ViewReport> view(const ViewOptions& options);
 
 }  // namespace argil::viewer
