@@ -17,6 +17,7 @@
 #include "commands/command.h"
 #include "commands/measure.h"
 #include "commands/measure_marks.h"
+#include "commands/pie_gestures.h"
 #include "commands/piece_gestures.h"
 #include "document/document.h"
 #include "haptics/felt_tool.h"
@@ -359,9 +360,10 @@ Result<void> App::show(const Picture& picture, bool has_new_panels) {
 void App::take_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
     if (gui_.leaves_list(event)) continue;
-    // The click that ends a change of the brush does not press the panel under the pointer.
+    // The click that ends a change of the brush, or is for the ring of favourites, does not press
+    // the panel under the pointer.
     const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
-    const bool is_taken = !ends_brush_drag && gui_.feed(event);
+    const bool is_taken = !ends_brush_drag && !is_for_pie(event, ui_) && gui_.feed(event);
     if (event.kind == InputEvent::Kind::close) {
       perform(Command::quit, ui_, document_);
     } else if (event.kind == InputEvent::Kind::drop) {
@@ -667,6 +669,7 @@ void App::draw_panels() {
   draw_references(ui_);
   draw_pieces(ui_, document_);
   draw_presets(ui_);
+  draw_favourites(ui_);
   draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);
@@ -688,6 +691,7 @@ void App::draw_panels() {
   log_.tick(window_->now_s());
   if (!ui_.panels.has_messages) draw_toasts(log_);
   draw_messages(ui_, log_);
+  draw_pie(ui_);
 }
 
 // ---- scripts and pictures ----------------------------------------------------------------------

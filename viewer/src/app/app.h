@@ -109,6 +109,7 @@ class App {
   void keep_settings();
   void keep_keys();
   void keep_presets();
+  void keep_favourites();
   void take_preset(const std::filesystem::path& file);
   void note_measurements();
   void tell(Notice notice);
@@ -139,6 +140,7 @@ class App {
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file
   KeyMap kept_keys_;        ///< likewise
+  Favourites kept_favourites_;
   std::optional<SlicePicture> slice_;
   FrameState last_frame_;
   DisplayView shown_view_;  ///< that the document thread was told last, and when

@@ -5,9 +5,11 @@
 #include <cassert>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "base/text.h"
 #include "commands/measure.h"
+#include "commands/pie_gestures.h"
 #include "commands/piece_edits.h"
 #include "picture/stereo.h"
 
@@ -158,6 +160,12 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::presets:
       ui.panels.has_presets = !ui.panels.has_presets;
       ui.preset_choice.waits_for_key = false;
+      return true;
+    case Command::favourites:
+      toggle_pie(ui);
+      return true;
+    case Command::favourite_list:
+      ui.panels.has_favourites = !ui.panels.has_favourites;
       return true;
     case Command::keys:
       ui.panels.has_keys = !ui.panels.has_keys;
@@ -333,6 +341,16 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
 void choose_tool(const ToolInfo& tool, UiState& ui) {
   leave_measuring(ui.measures);
   choose(ui.brush, tool);
+}
+
+void do_named(const KeyAim& aim, UiState& ui, DocumentThread& document) {
+  const auto* command = std::get_if<Command>(&aim);
+  if (command == nullptr) return choose_tool(*std::get<const ToolInfo*>(aim), ui);
+  const bool measures = *command == Command::measure_distance ||
+                        *command == Command::measure_angle ||
+                        *command == Command::measure_thickness;
+  if (measures && is_possible(*command, ui)) ui.measures.tool.reset();
+  perform(*command, ui, document);
 }
 
 /// What a held key repeats; anything else would open or toggle as often as the keyboard repeats.

@@ -19,9 +19,11 @@
 
 #include "commands/brush.h"
 #include "commands/brush_preset.h"
+#include "commands/favourites.h"
 #include "commands/import_choice.h"
 #include "commands/measure.h"
 #include "commands/outline.h"
+#include "commands/pie_menu.h"
 #include "commands/search_choice.h"
 #include "document/document_thread.h"
 #include "keys/key_map.h"
@@ -70,6 +72,7 @@ struct PanelState {
   bool has_help = false;
   bool has_keys = false;
   bool has_presets = false;
+  bool has_favourites = false;
   bool is_new_open = false;
   bool is_operations_open = false;
   bool is_export_open = false;
@@ -261,6 +264,8 @@ struct UiState {
   KeyChoice key_choice;
   std::vector<BrushPreset> presets;  ///< by name
   PresetChoice preset_choice;
+  Favourites favourites = usual_favourites();
+  PieMenu pie;  ///< their ring
   SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn
