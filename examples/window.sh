@@ -66,7 +66,7 @@ printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":18,"voxel_
 picture pieces 1180x660 'settle\nkey Ctrl+P\nkey Shift+G\nframes 3\nclick ##ry\nframes 3\nkey Ctrl+A\ntype 30\nkey Enter\nsettle\nmove 760 620\nframes 1000'
 # The head from the front, to sculpt another by.
 "$argil" render "$work/head.vdb" --view front --size 480x480 -o "$work/front.png" --quiet
-picture reference 1180x660 "settle\nkey Num1\nframes 3\ndrop $work/front.png\nframes 5\nclick Sculpt by it as a reference\nframes 5\nclick Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 100\nkey Enter\nmove 760 620\nframes 1000"
+picture reference 1180x660 "settle\nkey Num1\nframes 3\ndrop $work/front.png\nframes 5\nclick Sculpt by it as a reference\nsettle\nclick Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 100\nkey Enter\nmove 760 620\nframes 1000"
 
 # The list of keys, with one that is pressed and means something already.
 picture keys 1100x640 'settle\nkey Shift+F1\nframes 3\nclick Find\nframes 2\ntype view\nframes 3\nclick key wires\nframes 3\nkey X\nframes 3\nmove 700 600\nframes 5'

@@ -223,7 +223,7 @@ TEST_F(PieTest, StaysWhollyInTheWindowAtAllEdgesAndScales) {
       for (const double y : {0.0, 450.0, 899.0}) {
         ui_.pie = {};
         ui_.pointer = {x, y};
-        toggle_pie(ui_);
+        perform(Command::favourites, ui_, document_);
         const Camera::Pixel middle = middle_of_pie(ui_);
         EXPECT_GE(middle.x, reach);
         EXPECT_LE(middle.x, 1200.0 - reach);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/reference_image.h"
 
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -60,6 +62,29 @@ TEST(ReferenceImages, ThatAreHiddenOrCouldNotBeReadAreNotShown) {
   EXPECT_EQ(marks_of({image}, image.view).size(), 1U);
   image.is_visible = false;
   EXPECT_TRUE(marks_of({image}, image.view).empty());
+}
+
+TEST(ReferenceImageTest, IsReducedToWhatACardHoldsByMeansOfFour) {
+  // Columns of one shade each, so that means are told; an odd column is left out.
+  const auto made = [](int width, int height) {
+    ReferencePixels pixels{width, height, {}};
+    for (int n = 0; n < width * height; ++n) {
+      for (int c = 0; c < 4; ++c) {
+        pixels.rgba.push_back(static_cast<std::uint8_t>(10 * (n % width) + 40 * (n / width) + c));
+      }
+    }
+    return std::make_shared<const ReferencePixels>(std::move(pixels));
+  };
+  const auto whole = made(5, 2);
+  EXPECT_EQ(reduced(whole, 5), whole) << "it fits";
+  const auto half = reduced(whole, 4);
+  ASSERT_EQ(half->width, 2);
+  ASSERT_EQ(half->height, 1);
+  EXPECT_EQ(half->rgba, (std::vector<std::uint8_t>{25, 26, 27, 28, 45, 46, 47, 48}));
+  EXPECT_EQ(reduced(whole, 1)->rgba, (std::vector<std::uint8_t>{35, 36, 37, 38}));
+  const auto line = reduced(made(1, 9), 3);
+  EXPECT_EQ(line->width, 1);
+  EXPECT_EQ(line->height, 2);
 }
 
 }  // namespace

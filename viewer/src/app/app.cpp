@@ -71,6 +71,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       window_(std::move(window)),
       renderer_(std::move(renderer)),
       document_({home_, [] { Window::wake(); }}),
+      images_(home_, [] { Window::wake(); }),
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
@@ -222,7 +223,8 @@ Result<void> App::frame() {
   const double now = window_->now_s();
   const double start = now;
   const bool is_due = !waits_for_events() || now >= next_frame_s_;
-  const bool has_news = !events.empty() || document_.has_news() || window_->is_exposed();
+  const bool has_news =
+      !events.empty() || document_.has_news() || images_.has_news() || window_->is_exposed();
   if (!is_due && !has_news) return {};
   if (has_news) frames_to_settle_ = kFramesToSettle;
   ui_.camera.resize(window_->width(), window_->height());
@@ -256,7 +258,7 @@ Result<void> App::frame() {
   ui_.is_pointer_over_clay_view = !gui_.takes_mouse();
   last_s_ = now;
   draw_panels();
-  read_wanted_alphas();
+  ask_for_images();
   const bool has_new_panels = gui_.end_frame();
   owes_panels_ = owes_panels_ || has_new_panels;
   const bool may_wait = may_panels_wait(now, has_news);
@@ -378,17 +380,6 @@ void App::take_events(const std::vector<InputEvent>& events) {
   }
 }
 
-/// Once: a palette that is not looked at costs nothing.
-void App::read_wanted_alphas() {
-  if (!std::exchange(ui_.wants_alphas, false) || !ui_.alphas.empty()) return;
-  AlphaList list = read_alphas(home_);
-  ui_.alphas = std::move(list.alphas);
-  if (std::exchange(has_told_alphas_, true)) return;
-  for (const Error& problem : list.problems) {
-    ui_.notices.push_back({Notice::Kind::warning, problem.message});
-  }
-}
-
 /// Errors  memory: what there was no room for is not drawn, nor is what stood there before.
 Result<void> App::take_blocks(PieceKey piece, const BlockNews& news) {
   if (news.is_fresh) renderer_->drop(piece);
@@ -454,7 +445,7 @@ void App::take_news() {
     find_left_projects();
   }
   follow_references();
-  take_dropped_alpha();
+  take_images();
   start_empty();
 }
 
@@ -724,9 +715,8 @@ Result<bool> App::play(const ScriptStep& step) {
     wait_frames_ = wait->frames - 1;
   } else if (std::holds_alternative<Settle>(step.what)) {
     // What is shown depends on from where: the thread must have been told.
-    if (!has_started_ || !document_.is_idle() || ui_.task.is_running || !is_view_told()) {
-      return false;
-    }
+    const bool is_working = !document_.is_idle() || ui_.task.is_running || !images_.is_idle();
+    if (!has_started_ || is_working || !is_view_told()) return false;
     wait_frames_ = 2;  // drawn, and its answers shown
   } else if (const auto* size = std::get_if<Resize>(&step.what)) {
     window_->resize(size->width, size->height);

@@ -26,6 +26,7 @@
 #include "panels/panels.h"
 #include "picture/renderer.h"
 #include "picture/still.h"
+#include "settings/image_reader.h"
 
 namespace argil::viewer {
 
@@ -99,10 +100,15 @@ class App {
   bool has_ended();
   void drop_untouched();
   void note_recent();
-  void read_wanted_alphas();
+  void ask_for_images();
+  void take_images();
+  bool is_awaited(const std::filesystem::path& file) const;
+  void take_pixels(const std::filesystem::path& file, const ImageReader::News::Pixels& read);
+  void take_alphas(AlphaList list);
+  void take_added_alpha(const Result<std::filesystem::path>& added);
   void take_dropped(const std::vector<std::string>& files);
-  void take_dropped_alpha();
   void follow_references();
+  void open_references();
   void add_references(Picture& picture) const;
   void start_empty();
   void read_habits();
@@ -121,6 +127,7 @@ class App {
   UiState ui_;
   std::unique_ptr<HapticControl> haptics_;  // outlives the document thread, which uses its ring
   DocumentThread document_;
+  ImageReader images_;
   Gui gui_;
   FileList files_;
   Gestures gestures_;
@@ -174,9 +181,9 @@ class App {
   MarkedClay marked_;                     ///< likewise
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with
-  std::filesystem::path last_file_;
-  bool has_told_alphas_ =
-      false;  ///< of files there that are no images       ///< that the title names
+  std::filesystem::path last_file_;       ///< that the title names
+  bool has_asked_alphas_ = false;
+  bool has_told_alphas_ = false;        ///< of files there that are no images
   std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;
   std::vector<double> latency_ms_;

@@ -9,7 +9,6 @@
 
 #include "base/text.h"
 #include "commands/measure.h"
-#include "commands/pie_gestures.h"
 #include "commands/piece_edits.h"
 #include "picture/stereo.h"
 
@@ -161,9 +160,14 @@ bool perform_on_view(Command command, UiState& ui) {
       ui.panels.has_presets = !ui.panels.has_presets;
       ui.preset_choice.waits_for_key = false;
       return true;
-    case Command::favourites:
-      toggle_pie(ui);
+    case Command::favourites: {
+      // A change of the brush has the pointer until it ends.
+      const bool opens = !ui.pie.is_open && !ui.brush_drag;
+      ui.pie = {};
+      ui.pie.is_open = opens;
+      ui.pie.opened_at = ui.pointer;
       return true;
+    }
     case Command::favourite_list:
       ui.panels.has_favourites = !ui.panels.has_favourites;
       return true;

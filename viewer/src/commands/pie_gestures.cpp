@@ -75,14 +75,6 @@ bool key_on_pie(const InputEvent& event, UiState& ui) {
 
 }  // namespace
 
-void toggle_pie(UiState& ui) {
-  const bool was_open = std::exchange(ui.pie, PieMenu{}).is_open;
-  // A change of the brush has the pointer until it ends.
-  if (was_open || ui.brush_drag) return;
-  ui.pie.is_open = true;
-  ui.pie.opened_at = ui.pointer;
-}
-
 void hold_pie(const InputEvent& key, UiState& ui) {
   if (!ui.pie.is_open) return;
   ui.pie.held_key = key.key;

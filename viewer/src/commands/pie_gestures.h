@@ -7,9 +7,6 @@
 
 namespace argil::viewer {
 
-/// Opens the ring of favourites at the pointer, or closes it where it is open.
-void toggle_pie(UiState& ui);
-
 /// The ring that was just opened was opened by a key, which is still down: letting go of it chooses
 /// where the pointer has moved, and leaves the ring open where it has not.
 void hold_pie(const InputEvent& key, UiState& ui);

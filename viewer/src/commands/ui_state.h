@@ -229,6 +229,14 @@ struct PresetChoice {
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
 
+/// A reference image that is wanted, until it was read.
+struct ReferenceWish {
+  std::filesystem::path file;  ///< absolute
+  StraightView view = StraightView::front;
+  bool is_asked = false;    ///< the reader knows of it
+  bool is_dropped = false;  ///< it is not wanted any more
+};
+
 /// A picture larger than the window.
 struct StillChoice {
   bool is_open = false;  ///< the dialog
@@ -290,11 +298,13 @@ struct UiState {
   std::vector<mesh::Printer> printers;  ///< that can be chosen
   std::vector<AlphaChoice> alphas;      ///< likewise, once they were asked for
   bool wants_alphas = false;            ///< they shall be read, if they were not
+  bool reads_alphas = false;            ///< they are being read
   Settings settings;
   std::vector<float> pressures;    ///< of the pen's last strokes, as it told them, the newest last
   std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
 
   std::vector<ReferenceImage> references;
+  std::vector<ReferenceWish> reference_wishes;
   std::optional<std::filesystem::path> dropped_image;  ///< it is asked what it is for
   std::optional<std::filesystem::path> dropped_alpha;  ///< to emboss with
 

@@ -49,11 +49,14 @@ void GlReferences::take(ObjectCount& count, const std::vector<ReferenceMark>& ma
   for (const ReferenceMark& mark : marks) {
     assert(mark.pixels && mark.pixels->width > 0 && mark.pixels->height > 0);
     if (textures_.contains(mark.pixels.get())) continue;
+    GLint most_side = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_side);
+    const auto fitting = reduced(mark.pixels, most_side);
     GlTexture texture(count);
     bind_texture(0, texture.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, mark.pixels->width, mark.pixels->height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, mark.pixels->rgba.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, fitting->width, fitting->height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, fitting->rgba.data());
     set_texture(GL_LINEAR);
     // What is drawn smaller than it is would glitter.
     glGenerateMipmap(GL_TEXTURE_2D);

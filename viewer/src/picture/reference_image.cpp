@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/reference_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -28,7 +29,37 @@ const NamedView& row_of(StraightView view) noexcept {
   return kViews[at];
 }
 
+/// Of an odd side the last row or column is left out, unless it is the only one.
+ReferencePixels halved(const ReferencePixels& pixels) {
+  constexpr std::size_t kChannels = 4;
+  ReferencePixels half{std::max(1, pixels.width / 2), std::max(1, pixels.height / 2), {}};
+  half.rgba.reserve(kChannels * static_cast<std::size_t>(half.width) *
+                    static_cast<std::size_t>(half.height));
+  const auto wide = static_cast<std::size_t>(pixels.width);
+  const std::size_t across = pixels.width > 1 ? kChannels : 0;
+  const std::size_t down = pixels.height > 1 ? kChannels * wide : 0;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(half.height); ++y) {
+    const std::uint8_t* at = pixels.rgba.data() + kChannels * 2 * y * wide;
+    for (int x = 0; x < half.width; ++x, at += 2 * kChannels) {
+      for (std::size_t c = 0; c < kChannels; ++c) {
+        const int sum = at[c] + at[c + across] + at[c + down] + at[c + across + down];
+        half.rgba.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
+      }
+    }
+  }
+  return half;
+}
+
 }  // namespace
+
+std::shared_ptr<const ReferencePixels> reduced(std::shared_ptr<const ReferencePixels> pixels,
+                                               int most_side) {
+  assert(pixels && most_side >= 1);
+  while (std::max(pixels->width, pixels->height) > most_side) {
+    pixels = std::make_shared<const ReferencePixels>(halved(*pixels));
+  }
+  return pixels;
+}
 
 const char* title_of(StraightView view) noexcept { return row_of(view).title; }
 

@@ -38,12 +38,17 @@ struct ReferencePixels {
   std::vector<std::uint8_t> rgba;
 };
 
+/// The same with half as many columns and rows, as often as it takes until neither is more than
+/// `most_side`; itself where they are not. Each pixel is the mean of four.
+std::shared_ptr<const ReferencePixels> reduced(std::shared_ptr<const ReferencePixels> pixels,
+                                               int most_side);
+
 inline constexpr double kLeastReferenceWidthMm = 1e-3;
 
 /// An image to sculpt by, which is shown while the camera looks in its view: behind the clay, or
 /// over it. It stands in the plane through the sculpture's origin.
 struct ReferenceImage {
-  std::filesystem::path file;  ///< a PNG, absolute
+  std::filesystem::path file;  ///< a PNG or a JPEG, absolute
   StraightView view = StraightView::front;
   double right_mm = 0.0;  ///< of its middle from the origin, as the view sees it
   double up_mm = 0.0;
@@ -51,7 +56,8 @@ struct ReferenceImage {
   double opacity = 0.6;     ///< 0 to 1
   bool is_over = false;
   bool is_visible = true;
-  std::shared_ptr<const ReferencePixels> pixels = nullptr;  ///< null: could not be read
+  std::shared_ptr<const ReferencePixels> pixels = nullptr;  ///< null: not there (yet)
+  bool is_awaited = false;                                  ///< its pixels are being read
   friend bool operator==(const ReferenceImage&, const ReferenceImage&) = default;
 };
 

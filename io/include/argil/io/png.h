@@ -24,20 +24,4 @@ Result<void> write_png(const std::filesystem::path& file, const Image& image,
 Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& image,
                                         const Progress& progress = {});
 
-/// An image with transparency: four bytes a pixel, red, green, blue and opacity, in sRGB, rows from
-/// the top.
-struct ClearImage {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgba;
-};
-
-/// The longest side of an image that read_png takes.
-inline constexpr int kMostPngSide = 8192;
-
-/// Any PNG, as eight bits a channel.
-/// Errors  bad_input naming the file: no PNG; a side of more than kMostPngSide, before any pixel is
-///         unpacked; damaged or cut off, in libpng's words. disk, memory.
-Result<ClearImage> read_png(const std::filesystem::path& file);
-
 }  // namespace argil::io
