@@ -31,6 +31,25 @@ void main() {
 }
 )";
 
+/// What is drawn smaller than it is would glitter without the smaller ones, which are there: to
+/// have them made here would hold up the frame four times as long. An image of more pixels a side
+/// than the card takes begins with the first that it takes.
+void upload(const ReferencePixels& pixels) {
+  GLint most_side = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_side);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  GLint level = 0;
+  const auto put = [&](const PixelLevel& each) {
+    if (std::max(each.width, each.height) > most_side) return;
+    glTexImage2D(GL_TEXTURE_2D, level++, GL_RGBA8, each.width, each.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, each.rgba.data());
+  };
+  put(pixels);
+  for (const PixelLevel& each : pixels.smaller) put(each);
+  set_texture(GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+}
+
 }  // namespace
 
 Result<GlReferences> GlReferences::make(ObjectCount& count) {
@@ -49,18 +68,9 @@ void GlReferences::take(ObjectCount& count, const std::vector<ReferenceMark>& ma
   for (const ReferenceMark& mark : marks) {
     assert(mark.pixels && mark.pixels->width > 0 && mark.pixels->height > 0);
     if (textures_.contains(mark.pixels.get())) continue;
-    GLint most_side = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_side);
-    const auto fitting = reduced(mark.pixels, most_side);
     GlTexture texture(count);
     bind_texture(0, texture.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, fitting->width, fitting->height, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, fitting->rgba.data());
-    set_texture(GL_LINEAR);
-    // What is drawn smaller than it is would glitter.
-    glGenerateMipmap(GL_TEXTURE_2D);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    upload(*mark.pixels);
     bind_texture(0, 0);
     textures_.emplace(mark.pixels.get(), Kept{mark.pixels, std::move(texture)});
   }

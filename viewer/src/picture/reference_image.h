@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "argil/core/pace.h"
 #include "argil/core/vec3.h"
 
 #include "picture/camera.h"
@@ -31,17 +32,30 @@ ViewAxes axes_of(StraightView view) noexcept;
 /// The view in which a lens looks, upright and to a thousandth of a radian; nothing aslant.
 std::optional<StraightView> straight_view_of(const Lens& lens) noexcept;
 
-/// Pixels of an image in sRGB, four bytes each: red, green, blue, opacity. Rows from the top.
-struct ReferencePixels {
+/// Pixels in sRGB, four bytes each: red, green, blue, opacity. Rows from the top.
+struct PixelLevel {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;
 };
 
-/// The same with half as many columns and rows, as often as it takes until neither is more than
-/// `most_side`; itself where they are not. Each pixel is the mean of four.
-std::shared_ptr<const ReferencePixels> reduced(std::shared_ptr<const ReferencePixels> pixels,
-                                               int most_side);
+/// An image, and what it is when it is drawn smaller, so that nothing is left to reckon then.
+struct ReferencePixels : PixelLevel {
+  /// Each has half the columns and rows of the one before, rounded down, one at least; the last is
+  /// one pixel.
+  std::vector<PixelLevel> smaller;
+};
+
+/// The same with its smaller ones. A pixel of those is the mean of what it covers of the level
+/// before; of an odd side that is two pixels and a part of a third, so that nothing moves.
+///
+/// Shapes  rgba: 4 * width * height bytes, both at least 1.
+/// Errors  throws Interrupted as `pace` says, asked with every row.
+/// Cost    8 ns a pixel.
+/// Source  NVIDIA, "Non-Power-of-Two Mipmapping" (2005), box filter.
+std::shared_ptr<const ReferencePixels> with_smaller(int width, int height,
+                                                    std::vector<std::uint8_t> rgba,
+                                                    const Pace& pace);
 
 inline constexpr double kLeastReferenceWidthMm = 1e-3;
 

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "argil/core/no_throw.h"
+#include "argil/core/pace.h"
 #include "argil/io/image_file.h"
 #include "argil/io/safe_file.h"
 
@@ -159,11 +161,13 @@ Result<std::shared_ptr<const ReferencePixels>> read_pixels(const fs::path& file,
                                            "' has a name of more than a line, which the list of "
                                            "references cannot keep; rename it"};
   }
-  auto read = io::read_image(file, kMostReferencePixels, progress);
-  if (!read) return read.error();
-  io::ClearImage& image = read.value();
-  return std::make_shared<const ReferencePixels>(
-      ReferencePixels{image.width, image.height, std::move(image.rgba)});
+  using Pixels = std::shared_ptr<const ReferencePixels>;
+  return no_throw(file.string(), [&]() -> Result<Pixels> {
+    auto read = io::read_image(file, kMostReferencePixels, progress);
+    if (!read) return read.error();
+    io::ClearImage& image = read.value();
+    return with_smaller(image.width, image.height, std::move(image.rgba), Pace(progress, "read"));
+  });
 }
 
 }  // namespace argil::viewer

@@ -38,10 +38,11 @@ Result<void> write_references(const std::filesystem::path& project,
                               const std::vector<ReferenceImage>& images,
                               const std::vector<std::string>& unread = {});
 
-/// The most pixels of a reference image: 268 MB, and a third more on the graphics card.
+/// The most pixels of a reference image: 358 MB with the smaller ones, here and on the graphics
+/// card.
 inline constexpr std::int64_t kMostReferencePixels = 64 * 1024 * 1024;
 
-/// The pixels of a file.
+/// The pixels of a file, with its smaller ones.
 /// Errors  as io::read_image; bad_input: more pixels than kMostReferencePixels, or a file's name of
 ///         more than a line.
 Result<std::shared_ptr<const ReferencePixels>> read_pixels(const std::filesystem::path& file,
