@@ -112,6 +112,15 @@ TEST_F(ImageReaderTest, ForgetsWhatNobodyWantsAnyMore) {
   EXPECT_EQ(news.alphas->alphas.size(), 10U);
 }
 
+TEST_F(ImageReaderTest, ReadsOnceWhatSeveralAskFor) {
+  const fs::path file = png("a.png");
+  reader_->read_alphas();  // ten files are written first
+  for (int n = 0; n < 3; ++n) reader_->read_reference(file);
+  EXPECT_EQ(all_of(*reader_).references.size(), 1U);
+  reader_->read_reference(file);
+  EXPECT_EQ(all_of(*reader_).references.size(), 1U) << "again, as it is now";
+}
+
 /// Of a thousand that wait, hardly any is read before it is gone, and of the one under way nothing
 /// is told.
 TEST_F(ImageReaderTest, EndsWithoutWaiting) {
