@@ -121,7 +121,7 @@ std::string words_of_drawing(const UiState& ui) {
 std::string buttons_of(const UiState& ui) {
   const std::string others = std::string(", ") + mouse_words(ui.keys.set()).status_line;
   if (ui.pie.is_open) {
-    return ui.pie.held_key != 0 ? "let go where one is, or in the middle"
+    return ui.pie.held_key != 0 ? "Let go: choose, in the middle: nothing"
                                 : "Left: choose, right or Esc: close";
   }
   if (!ui.clay.has_clay) return "";

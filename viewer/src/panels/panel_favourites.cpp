@@ -15,7 +15,7 @@
 namespace argil::viewer {
 namespace {
 
-constexpr float kFavouritesWidth = 310.0F;  // units
+constexpr float kFavouritesWidth = 280.0F;  // units
 constexpr float kFavouriteNameLeft = 92.0F;
 constexpr float kFavouriteButtonsLeft = 210.0F;
 
@@ -59,7 +59,7 @@ void draw_place(std::size_t place, UiState& ui) {
 
 void draw_favourites(UiState& ui) {
   if (!ui.panels.has_favourites) return;
-  put_beside(kPiecesPanelLeft, kFavouritesWidth);
+  put_beside(kPrintPanelLeft, kFavouritesWidth);
   ImGui::SetNextWindowSize({kFavouritesWidth * unit(), 0.0F});
   keep_on_screen(kFavouritesWidth);
   ImGui::Begin("Favourites", &ui.panels.has_favourites, ImGuiWindowFlags_NoSavedSettings);
