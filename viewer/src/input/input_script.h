@@ -23,7 +23,7 @@ struct PlayEvent {
 struct WaitFrames {
   int frames = 1;
 };
-/// Waits until the clay has done all that was requested, and it was drawn.
+/// Waits until the clay has done all that was requested, images were read, and it was drawn.
 struct Settle {};
 /// Moves the pointer to a widget, by its label, once it stays in its place.
 struct PointAt {
