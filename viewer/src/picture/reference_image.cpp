@@ -50,6 +50,23 @@ Covered covered_by(std::size_t at, std::size_t size) noexcept {
   return {2 * at, 3, {part(half - at), part(half), part(at + 1)}};
 }
 
+/// A row of the half, as wide as before: what it covers of the rows from `at` on.
+void take_rows(const std::uint8_t* at, const Covered& down, std::vector<float>& row) {
+  std::fill(row.begin(), row.end(), 0.0F);
+  for (std::size_t n = 0; n < down.count; ++n, at += row.size()) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      row[k] += down.parts[n] * static_cast<float>(at[k]);
+    }
+  }
+}
+
+/// One channel of a pixel of that row, from the first that it covers.
+std::uint8_t mean_of(const float* first, const Covered& across) noexcept {
+  float mean = 0.5F;  // rounds
+  for (std::size_t n = 0; n < across.count; ++n) mean += across.parts[n] * first[kChannels * n];
+  return static_cast<std::uint8_t>(std::min(mean, 255.0F));
+}
+
 PixelLevel halved(const PixelLevel& from, const Pace& pace) {
   PixelLevel half{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
   const auto wide = static_cast<std::size_t>(from.width);
@@ -57,25 +74,15 @@ PixelLevel halved(const PixelLevel& from, const Pace& pace) {
   const auto columns = static_cast<std::size_t>(half.width);
   const auto rows = static_cast<std::size_t>(half.height);
   half.rgba.reserve(kChannels * columns * rows);
-  std::vector<float> row(kChannels * wide);  // a row of the half, as wide as before
+  std::vector<float> row(kChannels * wide);
   for (std::size_t y = 0; y < rows; ++y) {
     pace.at(static_cast<double>(y) / static_cast<double>(rows));
     const Covered down = covered_by(y, high);
-    std::fill(row.begin(), row.end(), 0.0F);
-    for (std::size_t n = 0; n < down.count; ++n) {
-      const std::uint8_t* at = from.rgba.data() + (down.first + n) * row.size();
-      const float part = down.parts[n];
-      for (std::size_t k = 0; k < row.size(); ++k) row[k] += part * static_cast<float>(at[k]);
-    }
+    take_rows(from.rgba.data() + down.first * row.size(), down, row);
     for (std::size_t x = 0; x < columns; ++x) {
       const Covered across = covered_by(x, wide);
-      for (std::size_t c = 0; c < kChannels; ++c) {
-        float mean = 0.5F;  // rounds
-        for (std::size_t n = 0; n < across.count; ++n) {
-          mean += across.parts[n] * row[kChannels * (across.first + n) + c];
-        }
-        half.rgba.push_back(static_cast<std::uint8_t>(std::min(mean, 255.0F)));
-      }
+      const float* first = row.data() + kChannels * across.first;
+      for (std::size_t c = 0; c < kChannels; ++c) half.rgba.push_back(mean_of(first + c, across));
     }
   }
   return half;
