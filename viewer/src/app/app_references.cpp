@@ -63,6 +63,7 @@ bool App::is_awaited(const fs::path& file) const {
 }
 
 void App::take_images() {
+  if (!images_.has_news()) return;
   ImageReader::News news = images_.take_news();
   for (const auto& [file, read] : news.references) take_pixels(file, read);
   if (news.alphas) take_alphas(*std::move(news.alphas));
@@ -79,13 +80,15 @@ void App::take_pixels(const fs::path& file, const ImageReader::News::Pixels& rea
       if (read) image.pixels = read.value();
     }
   }
-  if (!read) tell(notice_of(read.error()));
+  const auto is_met = [&](const ReferenceWish& wish) { return wish.is_asked && wish.file == file; };
   std::vector<ReferenceWish>& wishes = ui_.reference_wishes;
   for (const ReferenceWish& wish : wishes) {
-    if (read && wish.is_asked && wish.file == file) put_reference(wish, read.value(), ui_);
+    if (read && is_met(wish)) put_reference(wish, read.value(), ui_);
   }
-  std::erase_if(wishes,
-                [&](const ReferenceWish& wish) { return wish.is_asked && wish.file == file; });
+  const bool was_wished = std::erase_if(wishes, is_met) > 0;
+  if (read) return;
+  // One of a list may be back the next time.
+  tell(was_wished ? notice_of(read.error()) : Notice{Notice::Kind::warning, read.error().message});
 }
 
 void App::take_alphas(AlphaList list) {
