@@ -107,6 +107,7 @@ macro(argil_find_io)
   argil_find_module("Blosc" libblosc-dev BLOSC blosc)
   argil_find_package("nlohmann-json 3.11" nlohmann-json3-dev nlohmann_json 3.11 CONFIG)
   argil_find_module("libpng" libpng-dev PNG libpng)
+  argil_find_module("libjpeg-turbo" libjpeg-dev JPEG libjpeg)
 endmacro()
 
 # The window. What talks to OpenGL finds its functions through epoxy when the program runs, so that a

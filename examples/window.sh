@@ -45,6 +45,8 @@ picture import 900x520 "settle\nkey Tab\ndrop $PWD/examples/pebble.ply\nframes 5
 picture measure 1180x660 'settle\nkey Shift+U\nframes 3\nmove 500 200\npress left\nrelease left\nsettle\nmove 690 180\npress left\nrelease left\nsettle\nkey Ctrl+U\nmove 680 330\npress left\nrelease left\nsettle\nmove 600 290\npress left\nrelease left\nsettle\nmove 660 240\npress left\nrelease left\nsettle\nkey Alt+U\nmove 520 260\npress left\nrelease left\nsettle\nmove 760 640\nsettle\nframes 1000'
 # What the search finds by three letters.
 picture search 900x480 'settle\nkey Ctrl+K\ntype mas\nkey Down\nframes 1000'
+# The ring of favourites, held open at one of them.
+picture favourites 1000x560 'settle\nmove 520 250\nframes 3\nhold `\nframes 3\nmove 600 320\nframes 1000'
 # A mask by a lasso, and the line of a trim while it is drawn.
 picture outline 1000x560 'settle\nkey Num1\nkey M\nframes 3\nclick Drawn by\nframes 3\nclick Drawn by/Lasso\nframes 3\nmove 430 180\npress left\nmove 520 150\nmove 600 230\nmove 560 330\nmove 440 300\nframes 2\nrelease left\nsettle\nkey Q\nframes 3\nclick Drawn by\nframes 3\nclick Drawn by/Line\nframes 3\nmove 330 440\npress left\nmove 660 360\nframes 3'
 # A curve while it is clicked together, below the panel with the pen's curve; and the palette of images.
@@ -66,7 +68,7 @@ printf '%s\n' '{"argil_strokes":1,"start":{"shape":"ball","radius_mm":18,"voxel_
 picture pieces 1180x660 'settle\nkey Ctrl+P\nkey Shift+G\nframes 3\nclick ##ry\nframes 3\nkey Ctrl+A\ntype 30\nkey Enter\nsettle\nmove 760 620\nframes 1000'
 # The head from the front, to sculpt another by.
 "$argil" render "$work/head.vdb" --view front --size 480x480 -o "$work/front.png" --quiet
-picture reference 1180x660 "settle\nkey Num1\nframes 3\ndrop $work/front.png\nframes 5\nclick Sculpt by it as a reference\nframes 5\nclick Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 100\nkey Enter\nmove 760 620\nframes 1000"
+picture reference 1180x660 "settle\nkey Num1\nframes 3\ndrop $work/front.png\nframes 5\nclick Sculpt by it as a reference\nsettle\nclick Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 100\nkey Enter\nmove 760 620\nframes 1000"
 
 # Projects that were open before, by the pictures that closing them made; and the question about work that a window left.
 "$argil" import examples/pebble.ply --resolution 150 -o "$work/sculptures/Pebble.vdb" --quiet

@@ -28,7 +28,7 @@ TESTS = {"io": ("io", "readers")}  # library: folders of its tests; where none i
 LEAST_ASSERTS = {"engine": 8.0, "mesh": 8.0, "haptics": 8.0}  # per 1000 lines, those made at run time
 # Of the system, and of shared libraries that carry their licences themselves: headers that only declare.
 ONLY_CALLED = set("""sys netinet arpa X11 GLFW epoxy
-    blosc.h gmp.h libusb.h meshoptimizer.h png.h sodium.h spnav.h zlib.h
+    blosc.h gmp.h jerror.h jpeglib.h libusb.h meshoptimizer.h png.h sodium.h spnav.h zlib.h
     emmintrin.h fcntl.h immintrin.h malloc.h poll.h pthread.h sched.h spawn.h stdlib.h time.h unistd.h""".split())
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*["<]([^">]+)[">]', re.M)
 CONTROL = {"if", "for", "while", "switch", "catch", "return", "sizeof", "decltype", "alignas"}

@@ -18,7 +18,7 @@ import work
 EVENTS = 200  # of a sitting
 WIDTH, HEIGHT = 960, 640
 KEYS = ([chr(c) for c in range(ord("A"), ord("Z") + 1)] + [str(n) for n in range(10)] + [f"Num{n}" for n in range(10)]
-        + [f"F{n}" for n in range(1, 13)] + ["Space", ".", "[", "]", "Esc", "Enter", "Tab", "Backspace", "Delete",
+        + [f"F{n}" for n in range(1, 13)] + ["Space", ".", "`", "[", "]", "Esc", "Enter", "Tab", "Backspace", "Delete",
                                               "Right", "Left", "Down", "Up", "Home", "End", "Num.", "NumEnter"])
 # Without a sanitizer a sitting takes ten seconds; what it asks for may be slow, but must not last.
 LONGEST_S = 900
@@ -66,13 +66,17 @@ class Player:
         self.rng.shuffle(moves)
         return "\n".join([*moves, self.drag(), *(f"finger {n} up" for n in numbers)])
 
+    def ring(self):
+        """A flick of favourites, or a press that leaves them open."""
+        return f"move {self.place()}\nhold `\nmove {self.place()}\nlet `" if self.rng.random() < 0.7 else "key `"
+
     def event(self):
         # Esc, or what a sitting opens would hold up the rest of it.
         makers = {self.drag: 30, self.click: 20, self.key: 25, lambda: "key Esc": 8, self.text: 4, self.press: 3,
                   self.puck: 1, self.fingers: 3, lambda: f"move {self.place()}": 4, lambda: f"scroll {self.rng.randint(-4, 4)}": 3,
                   lambda: f"pen {self.rng.random():.2f}": 2, lambda: "drop " + self.rng.choice(self.files): 3,
                   lambda: f"resize {self.rng.randint(320, 1200)} {self.rng.randint(240, 900)}": 2,
-                  lambda: f"frames {self.rng.randint(1, 3)}": 2, lambda: "settle": 1}
+                  lambda: f"frames {self.rng.randint(1, 3)}": 2, lambda: "settle": 1, self.ring: 3}
         return self.rng.choices(list(makers), list(makers.values()))[0]()
 
     def sitting(self):
@@ -85,6 +89,7 @@ def files_to_drop(folder, inputs, broken):
     for file in [inputs.small_mesh, inputs.small, *sorted(broken.iterdir())]:
         shutil.copy(file, folder / file.name)
     (folder / "no_image.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(20))
+    (folder / "no_image.jpg").write_bytes(b"\xff\xd8\xff\xe0" + bytes(20))
     (folder / "empty.stl").write_bytes(b"")
     return [str(file) for file in sorted(folder.iterdir())] + [str(folder), str(folder / "nothing.obj")]
 

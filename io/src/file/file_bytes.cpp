@@ -43,7 +43,7 @@ struct CloseHandle {
   void operator()(std::FILE* handle) const noexcept { std::fclose(handle); }
 };
 
-Result<UnwrittenBytes> read_all(const std::filesystem::path& file) {
+Result<UnwrittenBytes> read_all(const std::filesystem::path& file, const Progress& progress) {
   // Without waiting for whoever may write to a pipe of that name.
   const int opened = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (opened < 0) return disk_error("read", file, errno);
@@ -69,7 +69,8 @@ Result<UnwrittenBytes> read_all(const std::filesystem::path& file) {
     if (std::ferror(handle.get()) != 0) return disk_error("read", file, errno);
     got += more;
     if (more < wanted) break;
-    if (got < bytes.size() && interrupted()) {
+    if (got == bytes.size()) break;
+    if (interrupted() || (progress && !progress("read", 0.0))) {
       return file_error(ErrorKind::interrupted, file, " was not read: interrupted");
     }
   }
@@ -84,8 +85,9 @@ Error disk_error(std::string_view doing, const std::filesystem::path& file, int 
                                std::generic_category().message(code) + "; " + remedy_for(code)};
 }
 
-Result<UnwrittenBytes> read_file_bytes(const std::filesystem::path& file) {
-  return no_throw(file.string(), [&] { return read_all(file); });
+Result<UnwrittenBytes> read_file_bytes(const std::filesystem::path& file,
+                                       const Progress& progress) {
+  return no_throw(file.string(), [&] { return read_all(file, progress); });
 }
 
 OutputFile::OutputFile(const std::filesystem::path& file) : file_(file) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 
 #include "file/unwritten_bytes.h"
@@ -17,8 +18,9 @@ namespace argil::io {
 
 /// The whole content of a regular file.
 /// Errors  disk naming the file and the system's reason; memory; interrupted between 16 MB and the
-///         next, when interrupted() says so (safe_file.h).
-Result<UnwrittenBytes> read_file_bytes(const std::filesystem::path& file);
+///         next, when interrupted() (safe_file.h) or `progress` says so.
+Result<UnwrittenBytes> read_file_bytes(const std::filesystem::path& file,
+                                       const Progress& progress = {});
 
 /// A disk error of the form "cannot DOING 'FILE': REASON; REMEDY" for the system error `code`.
 Error disk_error(std::string_view doing, const std::filesystem::path& file, int code);

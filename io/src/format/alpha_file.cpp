@@ -20,13 +20,24 @@
 #include "argil/core/hash.h"
 #include "argil/core/hash_text.h"
 #include "argil/core/no_throw.h"
+#include "argil/core/pace.h"
 #include "argil/io/safe_file.h"
 
 #include "file/file_bytes.h"
 #include "file/file_error.h"
+#include "format/image_format.h"
+#include "format/jpeg_read.h"
 
 namespace argil::io {
 namespace {
+
+constexpr ImageBounds kAlphaBounds{AlphaImage::kLeastSide, AlphaImage::kMostSide,
+                                   std::int64_t{AlphaImage::kMostSide} * AlphaImage::kMostSide};
+
+/// Of channels up to 65535.
+std::uint16_t luma_of(std::uint32_t red, std::uint32_t green, std::uint32_t blue) noexcept {
+  return static_cast<std::uint16_t>((2126 * red + 7152 * green + 722 * blue + 5000) / 10000);
+}
 
 /// Takes a message and leaves libpng.
 [[noreturn]] void give_up(png_structp png, png_const_charp words) {
@@ -108,7 +119,7 @@ class PngReader {
     };
     const bool is_color = channels_ >= 3;
     std::uint32_t grey = value(0);
-    if (is_color) grey = (2126 * value(0) + 7152 * value(1) + 722 * value(2) + 5000) / 10000;
+    if (is_color) grey = luma_of(value(0), value(1), value(2));
     const bool is_clear = channels_ == 2 || channels_ == 4;
     if (is_clear) grey = (grey * value(is_color ? 3 : 1) + 32767) / 65535;
     return static_cast<std::uint16_t>(grey);
@@ -135,13 +146,14 @@ class PngReader {
 };
 
 /// False where libpng gave up.
-bool read_pixels(PngReader& reader, std::vector<std::uint16_t>& pixels) {
+bool read_pixels(PngReader& reader, const Pace& pace, std::vector<std::uint16_t>& pixels) {
   if (!reader.start_pixels()) return false;
   const bool is_interlaced = reader.passes() > 1;
   std::vector<std::uint8_t> rows(reader.row_bytes() * (is_interlaced ? reader.height() : 1));
   pixels.reserve(static_cast<std::size_t>(reader.width()) * reader.height());
   for (int pass = 0; pass < reader.passes(); ++pass) {
     for (std::size_t y = 0; y < reader.height(); ++y) {
+      pace.at((pass + static_cast<double>(y) / reader.height()) / reader.passes());
       std::uint8_t* row = rows.data() + (is_interlaced ? y * reader.row_bytes() : 0);
       if (!reader.read_row(row)) return false;
       if (pass + 1 < reader.passes()) continue;
@@ -151,46 +163,67 @@ bool read_pixels(PngReader& reader, std::vector<std::uint16_t>& pixels) {
   return reader.read_end();
 }
 
-Result<std::shared_ptr<const AlphaImage>> parse_alpha(const std::filesystem::path& file,
-                                                      std::span<const std::byte> bytes) {
-  constexpr std::size_t kSignature = 8;
-  if (bytes.size() < kSignature ||
-      png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kSignature) != 0) {
-    return file_error(ErrorKind::bad_input, file, " is no PNG; save the image as one");
-  }
+/// Heights of a PNG's pixels, as they stand in the file.
+Result<std::vector<std::uint16_t>> parse_png_heights(const std::filesystem::path& file,
+                                                     std::span<const std::byte> bytes,
+                                                     const Pace& pace, int& width, int& height) {
   PngReader reader(bytes);
   if (!reader.is_ready()) throw std::bad_alloc();
-  const auto damaged = [&] {
-    return file_error(ErrorKind::bad_input, file,
-                      std::string(" is damaged (") + reader.reason() + "); save the image again");
-  };
-  if (!reader.read_size()) return damaged();
-  const auto fits = [](std::uint32_t side) {
-    return side >= static_cast<std::uint32_t>(AlphaImage::kLeastSide) &&
-           side <= static_cast<std::uint32_t>(AlphaImage::kMostSide);
-  };
-  if (!fits(reader.width()) || !fits(reader.height())) {
-    return file_error(ErrorKind::bad_input, file,
-                      " is " + std::to_string(reader.width()) + " by " +
-                          std::to_string(reader.height()) + " pixels; each side must be from " +
-                          std::to_string(AlphaImage::kLeastSide) + " to " +
-                          std::to_string(AlphaImage::kMostSide));
+  if (!reader.read_size()) return damaged_image_error(file, reader.reason());
+  if (auto fits = check_sides(file, reader.width(), reader.height(), kAlphaBounds); !fits) {
+    return fits.error();
   }
+  width = static_cast<int>(reader.width());
+  height = static_cast<int>(reader.height());
   std::vector<std::uint16_t> pixels;
-  if (!read_pixels(reader, pixels)) return damaged();
-  auto made = AlphaImage::make(static_cast<int>(reader.width()), static_cast<int>(reader.height()),
-                               std::move(pixels));
+  if (!read_pixels(reader, pace, pixels)) return damaged_image_error(file, reader.reason());
+  return pixels;
+}
+
+/// Those of a JPEG, which has eight bits and no opacity.
+Result<std::vector<std::uint16_t>> parse_jpeg_heights(const std::filesystem::path& file,
+                                                      std::span<const std::byte> bytes,
+                                                      const Progress& progress, int& width,
+                                                      int& height) {
+  const auto image = parse_jpeg(file, bytes, kAlphaBounds, progress);
+  if (!image) return image.error();
+  width = image.value().width;
+  height = image.value().height;
+  const std::vector<std::uint8_t>& rgba = image.value().rgba;
+  std::vector<std::uint16_t> pixels;
+  pixels.reserve(rgba.size() / 4);
+  for (std::size_t n = 0; n < rgba.size(); n += 4) {
+    const auto value = [&](std::size_t channel) { return rgba[n + channel] * 257U; };
+    pixels.push_back(luma_of(value(0), value(1), value(2)));
+  }
+  return pixels;
+}
+
+Result<std::shared_ptr<const AlphaImage>> parse_alpha(const std::filesystem::path& file,
+                                                      std::span<const std::byte> bytes,
+                                                      const Progress& progress) {
+  const Pace pace(progress, "read");
+  int width = 0;
+  int height = 0;
+  const ImageFormat format = image_format_of(bytes);
+  if (format == ImageFormat::none) return no_image_error(file);
+  auto pixels = format == ImageFormat::png
+                    ? parse_png_heights(file, bytes, pace, width, height)
+                    : parse_jpeg_heights(file, bytes, progress, width, height);
+  if (!pixels) return pixels.error();
+  auto made = AlphaImage::make(width, height, std::move(pixels).value());
   if (!made) return file_error(made.error().kind, file, ": " + made.error().message);
   return made;
 }
 
 }  // namespace
 
-Result<std::shared_ptr<const AlphaImage>> read_alpha(const std::filesystem::path& file) {
+Result<std::shared_ptr<const AlphaImage>> read_alpha(const std::filesystem::path& file,
+                                                     const Progress& progress) {
   return no_throw(file.string(), [&]() -> Result<std::shared_ptr<const AlphaImage>> {
-    const auto bytes = read_file_bytes(file);
+    const auto bytes = read_file_bytes(file, progress);
     if (!bytes) return bytes.error();
-    return parse_alpha(file, bytes.value());
+    return parse_alpha(file, bytes.value(), progress);
   });
 }
 

@@ -22,6 +22,8 @@
 
 #include "file/file_bytes.h"
 #include "file/file_error.h"
+#include "format/image_format.h"
+#include "format/png_read.h"
 #include "format/png_text.h"
 
 namespace argil::io {
@@ -126,62 +128,8 @@ Result<void> write_png(const std::filesystem::path& file, const Image& image,
   });
 }
 
-namespace {
-
-/// What libpng holds of an image, given back in any case.
-struct PngHeader {
-  png_image image;
-  PngHeader() {
-    std::memset(&image, 0, sizeof image);
-    image.version = PNG_IMAGE_VERSION;
-  }
-  ~PngHeader() { png_image_free(&image); }
-  PngHeader(const PngHeader&) = delete;
-  PngHeader& operator=(const PngHeader&) = delete;
-};
-
-Result<ClearImage> parse_png(const std::filesystem::path& file, std::span<const std::byte> bytes,
-                             int most_side) {
-  assert(most_side > 0);
-  constexpr std::size_t kSignature = 8;
-  if (bytes.size() < kSignature ||
-      png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kSignature) != 0) {
-    return file_error(ErrorKind::bad_input, file, " is no PNG; save the image as one");
-  }
-  PngHeader header;
-  png_image& image = header.image;
-  const auto damaged = [&] {
-    return file_error(ErrorKind::bad_input, file,
-                      std::string(" is damaged (") + image.message + "); save the image again");
-  };
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return damaged();
-  const auto most = static_cast<png_uint_32>(most_side);
-  if (image.width > most || image.height > most) {
-    return file_error(ErrorKind::bad_input, file,
-                      " is " + std::to_string(image.width) + " by " + std::to_string(image.height) +
-                          " pixels; each side may be " + std::to_string(most_side) +
-                          " at most: make it smaller");
-  }
-  image.format = PNG_FORMAT_RGBA;
-  ClearImage read{static_cast<int>(image.width), static_cast<int>(image.height), {}};
-  read.rgba.resize(PNG_IMAGE_SIZE(image));
-  // Rows follow one another without a gap, and nothing is laid below what is clear.
-  if (png_image_finish_read(&image, nullptr, read.rgba.data(), 0, nullptr) == 0) return damaged();
-  return read;
-}
-
-}  // namespace
-
-Result<ClearImage> read_png(const std::filesystem::path& file) {
-  return no_throw(file.string(), [&]() -> Result<ClearImage> {
-    const auto bytes = read_file_bytes(file);
-    if (!bytes) return bytes.error();
-    return parse_png(file, bytes.value(), kMostPngSide);
-  });
-}
-
 Result<TextedImage> read_small_png(const std::filesystem::path& file, int most_side) {
-  assert(most_side > 0 && most_side <= kMostPngSide);
+  assert(most_side > 0 && most_side <= kMostImageSide);
   return no_throw(file.string(), [&]() -> Result<TextedImage> {
     const auto side = static_cast<std::uintmax_t>(most_side);
     const std::uintmax_t most_bytes = 8 * side * side + 65536;
@@ -194,7 +142,11 @@ Result<TextedImage> read_small_png(const std::filesystem::path& file, int most_s
     }
     const auto bytes = read_file_bytes(file);
     if (!bytes) return bytes.error();
-    auto image = parse_png(file, bytes.value(), most_side);
+    if (image_format_of(bytes.value()) != ImageFormat::png) {
+      return file_error(ErrorKind::bad_input, file, " is no PNG; save the image as one");
+    }
+    const ImageBounds bounds{1, most_side, std::int64_t{most_side} * most_side};
+    auto image = parse_png(file, bytes.value(), bounds, {});
     if (!image) return image.error();
     auto texts = texts_of(bytes.value());
     if (!texts) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -12,6 +13,7 @@
 
 #include "support/alpha_maker.h"
 #include "support/effort.h"
+#include "support/jpeg_maker.h"
 #include "support/png_maker.h"
 #include "support/scratch.h"
 
@@ -103,6 +105,41 @@ TEST_F(AlphaFile, TakesValuesAsHeightsWhateverGammaTheFileNames) {
   EXPECT_EQ(pixels_of(maker.png(sample)), plain);
 }
 
+TEST_F(AlphaFile, TakesAJpegByItsGreyOrLumaAndAsItIsSeen) {
+  test::JpegMaker maker{16, 8, 1};
+  const auto ramp = [](unsigned x, unsigned y, int) { return 10 * x + 3 * y; };
+  const auto grey = pixels_of(maker.jpeg(ramp));
+  ASSERT_EQ(grey.size(), 128U);
+  for (unsigned n = 0; n < 128; ++n) {
+    EXPECT_NEAR(grey[n], 257.0 * ramp(n % 16, n / 16, 0), 2 * 257.0) << n;
+    EXPECT_EQ(grey[n] % 257, 0) << "eight bits";
+  }
+  maker.exif = test::JpegMaker::exif_of(6);
+  const auto turned = pixels_of(maker.jpeg(ramp));  // clockwise: eight wide, sixteen high
+  for (unsigned n = 0; n < 128; ++n) EXPECT_EQ(turned[(n % 16) * 8 + 7 - n / 16], grey[n]) << n;
+  maker = {16, 8, 3};
+  const auto colours = pixels_of(maker.jpeg([](unsigned x, unsigned, int channel) {
+    return x < 8 ? (channel == 0 ? 255U : 0U) : (channel == 1 ? 255U : 0U);
+  }));
+  EXPECT_NEAR(colours[3], 13933, 3 * 257);
+  EXPECT_NEAR(colours[12], 46871, 3 * 257);
+  maker = {16, 1, 1};
+  EXPECT_EQ(error_of(maker.jpeg(ramp)), " is 16 by 1 pixels; each side must be from 2 to 4096");
+}
+
+TEST_F(AlphaFile, EndsWhereItIsToldToStop) {
+  const auto sample = [](unsigned x, unsigned y, int) { return x + y; };
+  for (const std::string& bytes :
+       {PngMaker{90, 70, 8, 0, true}.png(sample), test::JpegMaker{90, 70, 1}.jpeg(sample)}) {
+    fill(file(), bytes);
+    int left = 20;
+    const auto read = read_alpha(file(), [&](std::string_view, double) { return --left > 0; });
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::interrupted);
+    EXPECT_EQ(left, 0);
+  }
+}
+
 TEST_F(AlphaFile, WritesWhatItReads) {
   std::mt19937 random(11);
   const auto noise = test::image_of(
@@ -142,8 +179,8 @@ TEST_F(AlphaFile, RefusesBombsBeforeTheyAreUnpacked) {
 TEST_F(AlphaFile, NamesWhatIsWrongWithAFile) {
   PngMaker maker{40, 30, 8, 0};
   const std::string good = maker.png([](unsigned x, unsigned y, int) { return 3 * x + y; });
-  EXPECT_EQ(error_of(""), " is no PNG; save the image as one");
-  EXPECT_EQ(error_of("GIF89a and more"), " is no PNG; save the image as one");
+  EXPECT_EQ(error_of(""), " is neither PNG nor JPEG; save the image as one of them");
+  EXPECT_EQ(error_of("GIF89a and more"), " is neither PNG nor JPEG; save the image as one of them");
   std::string broken = good;
   broken[20] = 7;  // the width, which its chunk's sum does not fit
   EXPECT_THAT(error_of(broken), AllOf(HasSubstr(" is damaged ("), HasSubstr("CRC")));

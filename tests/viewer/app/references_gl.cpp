@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reference images in a real window: dragged in, shown in their view alone, kept with the project.
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,8 @@
 #include "argil/io/project_file.h"
 
 #include "settings/reference_list.h"
+#include "support/jpeg_maker.h"
+#include "support/scratch.h"
 #include "viewer/support/picture_alike.h"
 #include "viewer/support/window_run.h"
 
@@ -56,7 +60,7 @@ TEST_F(ReferencesGl, AnImageIsDraggedInShownInItsViewAndKeptWithTheProject) {
     return panel + "shot " + name + "\nframes 2\n" + panel;
   };
   worked(
-      "drop red.png\nframes 5\nclick Sculpt by it as a reference\nframes 5\n"
+      "drop red.png\nframes 5\nclick Sculpt by it as a reference\nsettle\n"
       "click Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 60\nkey Enter\nframes 5\n" +
       shot("behind.png") + "click Over the clay##ref1\nframes 5\n" + shot("over.png") + panel +
       "drag right 600 300 560 300 4\nframes 5\nshot aslant.png\nframes 2\n");
@@ -74,6 +78,7 @@ TEST_F(ReferencesGl, AnImageIsDraggedInShownInItsViewAndKeptWithTheProject) {
   EXPECT_GT(redness("over.png", kMiddleX), redness("behind.png", kMiddleX) + 40) << "over it";
   const auto list = viewer::read_references(folder_ / "s.vdb");
   ASSERT_EQ(list.images.size(), 1U);
+  EXPECT_TRUE(list.problems.empty());
   EXPECT_EQ(list.images[0].width_mm, 60.0);
   EXPECT_TRUE(list.images[0].is_over);
   EXPECT_EQ(list.images[0].view, viewer::StraightView::front);
@@ -83,6 +88,54 @@ TEST_F(ReferencesGl, AnImageIsDraggedInShownInItsViewAndKeptWithTheProject) {
   EXPECT_GT(redness("again.png", kAside), 60);
   EXPECT_LT(redness("without.png", kAside), 10);
   EXPECT_TRUE(viewer::read_references(folder_ / "s.vdb").images.empty());
+}
+
+/// A JPEG under the name of a PNG, on its side: its left is red when it is seen the right way up.
+TEST_F(ReferencesGl, AJpegIsToldByItsContentAndStandsUpright) {
+  test::JpegMaker maker{64, 128};
+  maker.exif = test::JpegMaker::exif_of(8);  // the file's first row is at the left
+  test::fill(folder_ / "photo.png", maker.jpeg([](unsigned, unsigned y, int channel) {
+    return y < 64 ? (channel == 0 ? 250U : 10U) : (channel == 1 ? 250U : 10U);
+  }));
+  worked(
+      "drop photo.png\nframes 5\nclick Sculpt by it as a reference\nsettle\n"
+      "click Width, mm##ref1\nframes 3\nkey Ctrl+A\ntype 100\nkey Enter\nframes 5\n"
+      "click View\nframes 3\nclick Reference images\nframes 5\nshot seen.png\nframes 2\n");
+  const Color left = color_at("seen.png", 40, test::kWindowHeight / 2);
+  const Color right = color_at("seen.png", test::kWindowWidth - 40, test::kWindowHeight / 2);
+  EXPECT_GT(left[0], left[1] + 60);
+  EXPECT_GT(right[1], right[0] + 60);
+}
+
+/// What cannot be read is said, and the window that is closed meanwhile goes without it: thirty
+/// images, each of which takes a while, wait in the list.
+TEST_F(ReferencesGl, ABrokenImageIsSaidAndClosingDoesNotWaitForTheRest) {
+  test::fill(folder_ / "broken.png", "no image");
+  const test::WindowRun run = play(
+      "settle\ndrop broken.png\nframes 5\nclick Sculpt by it as a reference\nsettle\nframes 3\n"
+      "key Ctrl+Q\nframes 3\n",
+      "s.vdb");
+  EXPECT_EQ(run.status, 0) << run.words;
+  ASSERT_EQ(run.report.at("complaints").size(), 1U) << run.report.dump();
+  EXPECT_NE(run.report.at("complaints")[0].get<std::string>().find("is neither PNG nor JPEG"),
+            std::string::npos);
+  EXPECT_TRUE(viewer::read_references(folder_ / "s.vdb").images.empty());
+
+  // One that is gone may be back the next time: no more than a warning.
+  std::string list = "front 0 0 100 0.5 behind shown gone.png\n";
+  Image image{2000, 2000, std::vector<std::uint8_t>(std::size_t{3} * 2000 * 2000, 77)};
+  ASSERT_TRUE(io::write_png(folder_ / "large.png", image));
+  for (int n = 0; n < 30; ++n) {
+    const std::string name = "large" + std::to_string(n) + ".png";
+    std::filesystem::create_hard_link(folder_ / "large.png", folder_ / name);
+    list += "front 0 0 100 0.5 behind shown " + name + "\n";
+  }
+  test::fill(folder_ / "s.references.txt", list);
+  // Without `settle`, which waits for all of them.
+  const test::WindowRun left = play("frames 40\nkey Ctrl+Q\nframes 3\n", "s.vdb");
+  EXPECT_EQ(left.status, 0) << left.words;
+  EXPECT_EQ(left.report.at("complaints").size(), 0U) << left.report.dump();
+  EXPECT_EQ(test::content_of(folder_ / "s.references.txt"), list) << "pixels are no change of it";
 }
 
 }  // namespace

@@ -34,10 +34,17 @@ TEST(InputScript, NamesLineAndWordOfWhatItCannotRead) {
   EXPECT_EQ(lifted.kind, InputEvent::Kind::finger_up);
   EXPECT_EQ(lifted.finger, 2U);
   EXPECT_EQ(read("drag left 0 0 10 10 5 ctrl+shift\n").value().size(), 9U);
+  const auto held = read("hold Ctrl+F9\nmove 3 4\nlet Ctrl+F9\n").value();
+  ASSERT_EQ(held.size(), 3U);
+  EXPECT_EQ(std::get<PlayEvent>(held.front().what).event.kind, InputEvent::Kind::key_down);
+  EXPECT_TRUE(std::get<PlayEvent>(held.front().what).event.modifiers.ctrl);
+  EXPECT_EQ(std::get<PlayEvent>(held.back().what).event.kind, InputEvent::Kind::key_up);
   for (const auto& [text, word] : {std::pair{"settle\nmoove 1 2\n", "moove"},
                                    {"settle\nmove 1 x\n", "'x'"},
                                    {"settle\npress up\n", "'up'"},
                                    {"settle\nkey Ctrl+Nothing\n", "Ctrl+Nothing"},
+                                   {"settle\nhold Ctrl+\n", "'Ctrl+'"},
+                                   {"settle\nlet\n", "is no key"},
                                    {"settle\nframes 0\n", "N is '0'; must be"},
                                    {"settle\nmove 1 2 3\n", "'3'"},
                                    {"settle\npen 0.5 tail\n", "tail"},

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "picture/reference_image.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,7 +14,9 @@ namespace argil::viewer {
 namespace {
 
 std::shared_ptr<const ReferencePixels> pixels(int width, int height) {
-  ReferencePixels made{width, height, {}};
+  ReferencePixels made;
+  made.width = width;
+  made.height = height;
   made.rgba.resize(static_cast<std::size_t>(4) * static_cast<std::size_t>(width * height), 255);
   return std::make_shared<const ReferencePixels>(std::move(made));
 }
@@ -60,6 +66,59 @@ TEST(ReferenceImages, ThatAreHiddenOrCouldNotBeReadAreNotShown) {
   EXPECT_EQ(marks_of({image}, image.view).size(), 1U);
   image.is_visible = false;
   EXPECT_TRUE(marks_of({image}, image.view).empty());
+}
+
+/// Of one channel; the others are the same.
+std::vector<int> shades_of(const PixelLevel& level) {
+  std::vector<int> shades;
+  for (std::size_t n = 0; n < level.rgba.size(); n += 4) {
+    for (std::size_t c = 1; c < 4; ++c) EXPECT_EQ(level.rgba[n + c], level.rgba[n]);
+    shades.push_back(level.rgba[n]);
+  }
+  return shades;
+}
+
+std::shared_ptr<const ReferencePixels> levels_of(int width, int height,
+                                                 const std::vector<int>& shades) {
+  std::vector<std::uint8_t> rgba;
+  for (const int shade : shades) rgba.insert(rgba.end(), 4, static_cast<std::uint8_t>(shade));
+  const Progress never_stops;
+  return with_smaller(width, height, std::move(rgba), Pace(never_stops, "read"));
+}
+
+TEST(ReferenceImages, HasSmallerOnesThatAreMeansOfWhatTheyCover) {
+  const auto even = levels_of(4, 2, {0, 10, 100, 110, 20, 30, 120, 130});
+  ASSERT_EQ(even->smaller.size(), 2U);
+  EXPECT_EQ(even->smaller[0].width, 2);
+  EXPECT_EQ(even->smaller[0].height, 1);
+  EXPECT_EQ(shades_of(even->smaller[0]), (std::vector<int>{15, 115}));
+  EXPECT_EQ(shades_of(even->smaller[1]), (std::vector<int>{65}));
+  // Five columns: each of the two covers two of them and half of the middle one.
+  const auto odd = levels_of(5, 1, {50, 50, 100, 200, 200});
+  EXPECT_EQ(shades_of(odd->smaller[0]), (std::vector<int>{60, 180}));
+  EXPECT_EQ(shades_of(odd->smaller[1]), (std::vector<int>{120}));
+  EXPECT_TRUE(levels_of(1, 1, {7})->smaller.empty());
+  // Nothing moves, however odd the sides are: a ramp's middle stays its middle.
+  std::vector<int> ramp;
+  for (int n = 0; n < 127; ++n) ramp.push_back(2 * n);
+  const auto narrow = levels_of(127, 1, ramp);
+  ASSERT_EQ(narrow->smaller.size(), 6U);
+  EXPECT_NEAR(shades_of(narrow->smaller.back())[0], 126, 2);
+  // All black and all white stay so.
+  for (const int shade : {0, 255}) {
+    const auto flat = levels_of(13, 7, std::vector<int>(13 * 7, shade));
+    for (const PixelLevel& level : flat->smaller) {
+      for (const int each : shades_of(level)) EXPECT_EQ(each, shade);
+    }
+  }
+}
+
+TEST(ReferenceImages, EndsWhereItIsToldToStop) {
+  int left = 10;
+  const Progress stops = [&](std::string_view, double) { return --left > 0; };
+  EXPECT_THROW(with_smaller(64, 64, std::vector<std::uint8_t>(4 * 64 * 64), Pace(stops, "read")),
+               Interrupted);
+  EXPECT_EQ(left, 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -14,6 +15,7 @@
 
 #include "argil/io/alpha_file.h"
 
+#include "support/jpeg_maker.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {
@@ -103,6 +105,33 @@ TEST(AlphaPalette, TakesAnotherImageOfTheSameNameBesideTheFirst) {
   ASSERT_FALSE(refused.ok());
   EXPECT_THAT(refused.error().message, HasSubstr("no.png"));
   EXPECT_EQ(read_alphas(home.path()).alphas.size(), 11U);
+}
+
+TEST(AlphaPalette, TakesJpegsAndListsThoseThatWereCopiedThere) {
+  const test::ScratchFolder home;
+  const auto bright = [](unsigned x, unsigned, int) { return 16 * x; };
+  test::fill(home / "photo.JPG", test::JpegMaker{16, 16, 1}.jpeg(bright));
+  const auto added = add_alpha(home.path(), home / "photo.JPG");
+  ASSERT_TRUE(added.ok()) << added.error().message;
+  EXPECT_EQ(added.value().filename(), "photo.png");
+  fs::copy_file(home / "photo.JPG", home.path() / "alphas" / "copied.Jpeg");
+  const AlphaList list = read_alphas(home.path());
+  EXPECT_TRUE(list.problems.empty());
+  EXPECT_EQ(list.alphas.size(), 12U);
+  ASSERT_NE(named(list, "photo"), nullptr);
+  ASSERT_NE(named(list, "copied"), nullptr);
+  EXPECT_EQ(named(list, "photo")->thumb, named(list, "copied")->thumb);
+}
+
+TEST(AlphaPalette, EndsWhereItIsToldToStop) {
+  const test::ScratchFolder home;
+  ASSERT_EQ(read_alphas(home.path()).alphas.size(), 10U);
+  int left = 400;  // rows: one image and a half
+  const AlphaList list =
+      read_alphas(home.path(), [&](std::string_view, double) { return --left > 0; });
+  EXPECT_LT(list.alphas.size(), 3U);
+  EXPECT_TRUE(list.problems.empty()) << "nothing is wrong with the rest";
+  EXPECT_EQ(left, 0);
 }
 
 }  // namespace

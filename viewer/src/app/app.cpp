@@ -18,6 +18,7 @@
 #include "commands/measure.h"
 #include "document/document.h"
 #include "gestures/measure_marks.h"
+#include "gestures/pie_gestures.h"
 #include "gestures/piece_gestures.h"
 #include "haptics/felt_tool.h"
 #include "panels/layout.h"
@@ -70,6 +71,7 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       window_(std::move(window)),
       renderer_(std::move(renderer)),
       document_({home_, [] { Window::wake(); }, picture_places(home_, !options_.home.empty())}),
+      images_(home_, [] { Window::wake(); }),
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
@@ -228,8 +230,8 @@ Result<void> App::frame() {
   const double now = window_->now_s();
   const double start = now;
   const bool is_due = !waits_for_events() || now >= next_frame_s_;
-  const bool has_news =
-      !events.empty() || document_.has_news() || looks_.has_news() || window_->is_exposed();
+  const bool has_news = !events.empty() || document_.has_news() || images_.has_news() ||
+                        looks_.has_news() || window_->is_exposed();
   if (!is_due && !has_news) return {};
   if (has_news) frames_to_settle_ = kFramesToSettle;
   ui_.camera.resize(window_->width(), window_->height());
@@ -264,7 +266,7 @@ Result<void> App::frame() {
   last_s_ = now;
   follow_files();
   draw_panels();
-  read_wanted_alphas();
+  ask_for_images();
   const bool has_new_panels = gui_.end_frame();
   if (has_script_) cut_off_.look();
   owes_panels_ = owes_panels_ || has_new_panels;
@@ -370,9 +372,10 @@ Result<void> App::show(const Picture& picture, bool has_new_panels) {
 void App::take_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
     if (gui_.leaves_list(event)) continue;
-    // The click that ends a change of the brush does not press the panel under the pointer.
+    // The click that ends a change of the brush, or is for the ring of favourites, does not press
+    // the panel under the pointer.
     const bool ends_brush_drag = ui_.brush_drag && event.kind == InputEvent::Kind::press;
-    const bool is_taken = !ends_brush_drag && gui_.feed(event);
+    const bool is_taken = !ends_brush_drag && !is_for_pie(event, ui_) && gui_.feed(event);
     if (event.kind == InputEvent::Kind::close) {
       perform(Command::quit, ui_, document_);
     } else if (event.kind == InputEvent::Kind::drop) {
@@ -384,17 +387,6 @@ void App::take_events(const std::vector<InputEvent>& events) {
       if (!is_key) ui_.is_pointer_over_clay_view = !is_taken;
       gestures_.on(event, is_taken && !gestures_.is_stroke_open());
     }
-  }
-}
-
-/// Once: a palette that is not looked at costs nothing.
-void App::read_wanted_alphas() {
-  if (!std::exchange(ui_.wants_alphas, false) || !ui_.alphas.empty()) return;
-  AlphaList list = read_alphas(home_);
-  ui_.alphas = std::move(list.alphas);
-  if (std::exchange(has_told_alphas_, true)) return;
-  for (const Error& problem : list.problems) {
-    ui_.notices.push_back({Notice::Kind::warning, problem.message});
   }
 }
 
@@ -463,7 +455,7 @@ void App::take_news() {
     find_left_projects();
   }
   follow_references();
-  take_dropped_alpha();
+  take_images();
   start_empty();
 }
 
@@ -678,6 +670,7 @@ void App::draw_panels() {
   draw_references(ui_);
   draw_pieces(ui_, document_);
   draw_presets(ui_);
+  draw_favourites(ui_);
   draw_measures(ui_, document_);
   draw_haptics(ui_, *haptics_, document_);
   draw_thickness(ui_);
@@ -700,6 +693,7 @@ void App::draw_panels() {
   log_.tick(window_->now_s());
   if (!ui_.panels.has_messages) draw_toasts(log_);
   draw_messages(ui_, log_);
+  draw_pie(ui_);
 }
 
 // ---- scripts and pictures ----------------------------------------------------------------------
@@ -732,10 +726,9 @@ Result<bool> App::play(const ScriptStep& step) {
     wait_frames_ = wait->frames - 1;
   } else if (std::holds_alternative<Settle>(step.what)) {
     // What is shown depends on from where: the thread must have been told.
-    if (!has_started_ || !document_.is_idle() || ui_.task.is_running || !is_view_told() ||
-        !looks_.is_idle()) {
-      return false;
-    }
+    const bool is_working =
+        !document_.is_idle() || ui_.task.is_running || !images_.is_idle() || !looks_.is_idle();
+    if (!has_started_ || is_working || !is_view_told()) return false;
     wait_frames_ = 2;  // drawn, and its answers shown
   } else if (const auto* size = std::get_if<Resize>(&step.what)) {
     window_->resize(size->width, size->height);

@@ -28,6 +28,7 @@
 #include "picture/renderer.h"
 #include "picture/still.h"
 #include "settings/file_looks.h"
+#include "settings/image_reader.h"
 
 namespace argil::viewer {
 
@@ -106,16 +107,22 @@ class App {
   ShownPicture kept_picture(const std::shared_ptr<const ReferencePixels>& pixels);
   void drop_file(const ShownFile& file);
   void follow_files();
-  void read_wanted_alphas();
+  void ask_for_images();
+  void take_images();
+  bool is_awaited(const std::filesystem::path& file) const;
+  void take_pixels(const std::filesystem::path& file, const ImageReader::News::Pixels& read);
+  void take_alphas(AlphaList list);
+  void take_added_alpha(const Result<std::filesystem::path>& added);
   void take_dropped(const std::vector<std::string>& files);
-  void take_dropped_alpha();
   void follow_references();
+  void open_references();
   void add_references(Picture& picture) const;
   void start_empty();
   void read_habits();
   void keep_settings();
   void keep_keys();
   void keep_presets();
+  void keep_favourites();
   void take_preset(const std::filesystem::path& file);
   void note_measurements();
   void tell(Notice notice);
@@ -127,6 +134,7 @@ class App {
   UiState ui_;
   std::unique_ptr<HapticControl> haptics_;  // outlives the document thread, which uses its ring
   DocumentThread document_;
+  ImageReader images_;
   Gui gui_;
   CutOff cut_off_;
   FileList files_;
@@ -148,6 +156,7 @@ class App {
   MessageLog log_;
   Settings kept_settings_;  ///< as they are in the file
   KeyMap kept_keys_;        ///< likewise
+  Favourites kept_favourites_;
   std::optional<SlicePicture> slice_;
   FrameState last_frame_;
   DisplayView shown_view_;  ///< that the document thread was told last, and when
@@ -181,9 +190,9 @@ class App {
   MarkedClay marked_;                     ///< likewise
   bool has_started_ = false;              ///< the document thread has done the first requests
   bool has_begun_ = false;                ///< with a clay, or there was none to begin with
-  std::filesystem::path last_file_;
-  bool has_told_alphas_ =
-      false;  ///< of files there that are no images       ///< that the title names
+  std::filesystem::path last_file_;       ///< that the title names
+  bool has_asked_alphas_ = false;
+  bool has_told_alphas_ = false;        ///< of files there that are no images
   std::vector<double> shown_inputs_s_;  ///< of inputs whose dabs this frame shows first
   std::vector<double> frame_ms_;
   std::vector<double> latency_ms_;

@@ -6,6 +6,7 @@
 
 #include "app/app.h"
 #include "base/text.h"
+#include "commands/favourites.h"
 #include "commands/preset_choice.h"
 #include "document/document.h"
 #include "keys/key_file.h"
@@ -21,6 +22,12 @@ void App::read_habits() {
     ui_.notices.push_back({Notice::Kind::warning, keys.error().message});
   }
   kept_keys_ = ui_.keys;
+  if (auto favourites = read_favourites(home_)) {
+    ui_.favourites = std::move(favourites).value();
+  } else {
+    ui_.notices.push_back({Notice::Kind::warning, favourites.error().message});
+  }
+  kept_favourites_ = ui_.favourites;
   PresetList list = read_presets(home_);
   ui_.presets = std::move(list.presets);
   for (const Error& problem : list.problems) {
@@ -61,9 +68,18 @@ void App::take_preset(const std::filesystem::path& file) {
 void App::keep_settings() {
   keep_keys();
   keep_presets();
+  keep_favourites();
   if (ui_.settings == kept_settings_) return;
   const Settings former = std::exchange(kept_settings_, ui_.settings);
   if (auto kept = write_changes(home_, former, ui_.settings); !kept) {
+    tell({Notice::Kind::warning, kept.error().message});
+  }
+}
+
+void App::keep_favourites() {
+  if (ui_.favourites == kept_favourites_) return;
+  kept_favourites_ = ui_.favourites;
+  if (auto kept = write_favourites(home_, ui_.favourites); !kept) {
     tell({Notice::Kind::warning, kept.error().message});
   }
 }

@@ -16,6 +16,11 @@ std::string extension_of(const std::filesystem::path& file) {
   return extension;
 }
 
+bool has_image_ending(const std::filesystem::path& file) {
+  const std::string ending = extension_of(file);
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
 std::string grouped(std::int64_t number) {
   assert(number >= 0);
   std::string digits = std::to_string(number);

@@ -18,6 +18,9 @@ inline std::string in_quotes(const std::string& text) {
 /// A file's extension in lower case: ".vdb" of OWL.VDB. Letters beyond ASCII stay as they are.
 std::string extension_of(const std::filesystem::path& file);
 
+/// Whether a file's extension is that of an image which may be read: PNG or JPEG, in any case.
+bool has_image_ending(const std::filesystem::path& file);
+
 /// Digits in groups of three: 1 234 567.
 std::string grouped(std::int64_t number);
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "base/text.h"
 #include "commands/measure.h"
@@ -158,6 +159,17 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::presets:
       ui.panels.has_presets = !ui.panels.has_presets;
       ui.preset_choice.waits_for_key = false;
+      return true;
+    case Command::favourites: {
+      // A change of the brush has the pointer until it ends.
+      const bool opens = !ui.pie.is_open && !ui.brush_drag;
+      ui.pie = {};
+      ui.pie.is_open = opens;
+      ui.pie.opened_at = ui.pointer;
+      return true;
+    }
+    case Command::favourite_list:
+      ui.panels.has_favourites = !ui.panels.has_favourites;
       return true;
     case Command::keys:
       ui.panels.has_keys = !ui.panels.has_keys;
@@ -333,6 +345,16 @@ std::optional<bool> is_piece_possible(Command command, const UiState& ui) noexce
 void choose_tool(const ToolInfo& tool, UiState& ui) {
   leave_measuring(ui.measures);
   choose(ui.brush, tool);
+}
+
+void do_named(const KeyAim& aim, UiState& ui, DocumentThread& document) {
+  const auto* command = std::get_if<Command>(&aim);
+  if (command == nullptr) return choose_tool(*std::get<const ToolInfo*>(aim), ui);
+  const bool measures = *command == Command::measure_distance ||
+                        *command == Command::measure_angle ||
+                        *command == Command::measure_thickness;
+  if (measures && is_possible(*command, ui)) ui.measures.tool.reset();
+  perform(*command, ui, document);
 }
 
 /// What a held key repeats; anything else would open or toggle as often as the keyboard repeats.

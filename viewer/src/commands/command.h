@@ -7,11 +7,16 @@
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
 #include "keys/command_info.h"
+#include "keys/key_map.h"
 
 namespace argil::viewer {
 
 /// The brush works with this tool from now on, and nothing is measured any more.
 void choose_tool(const ToolInfo& tool, UiState& ui);
+
+/// Does what was asked for by its name. Whoever names a tool wants it, also where it is the one
+/// that is chosen, which its key would leave.
+void do_named(const KeyAim& aim, UiState& ui, DocumentThread& document);
 
 /// Whether a key that is held down repeats it.
 bool goes_on_while_held(Command command) noexcept;

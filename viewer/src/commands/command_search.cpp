@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands/command.h"
+#include "commands/favourite_choice.h"
 
 namespace argil::viewer {
 namespace {
@@ -50,11 +51,6 @@ std::vector<SearchEntry> all_search_entries(const KeyMap& keys) {
 std::size_t search_age(const SearchEntry& entry, const SearchChoice& choice) {
   const auto at = std::find(choice.recent.begin(), choice.recent.end(), entry.aim);
   return static_cast<std::size_t>(at - choice.recent.begin());
-}
-
-bool is_measuring_tool(Command command) {
-  return command == Command::measure_distance || command == Command::measure_angle ||
-         command == Command::measure_thickness;
 }
 
 void move_mark(int by, SearchChoice& choice, const KeyMap& keys) {
@@ -142,13 +138,7 @@ void do_found(const SearchEntry& entry, UiState& ui, DocumentThread& document) {
   std::erase(choice.recent, entry.aim);
   choice.recent.insert(choice.recent.begin(), entry.aim);
   if (choice.recent.size() > SearchChoice::kMostRecent) choice.recent.pop_back();
-  if (const auto* command = std::get_if<Command>(&entry.aim)) {
-    // Whoever names a tool wants it, also where it is the one that is chosen.
-    if (is_measuring_tool(*command)) ui.measures.tool.reset();
-    perform(*command, ui, document);
-  } else {
-    choose_tool(*std::get<const ToolInfo*>(entry.aim), ui);
-  }
+  do_named(entry.aim, ui, document);
 }
 
 bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document) {
@@ -184,7 +174,13 @@ bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document
     case kKeyEnter:
     case kKeyPadEnter: {
       const std::vector<SearchEntry> found = found_entries(choice, ui.keys);
-      if (choice.at < found.size()) do_found(found[choice.at], ui, document);
+      if (choice.at >= found.size()) return true;
+      const SearchEntry& marked = found[choice.at];
+      if (event.modifiers.ctrl) {
+        if (!event.is_repeat) toggle_favourite(favourite_of(marked.aim), ui);
+      } else {
+        do_found(marked, ui, document);
+      }
       return true;
     }
     default:

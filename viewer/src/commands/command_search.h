@@ -33,8 +33,8 @@ std::vector<SearchEntry> found_entries(const SearchChoice& choice, const KeyMap&
 /// F keys and the like.
 bool types_letter(const KeyChord& chord) noexcept;
 
-/// A key or a letter while the search is open: types, moves, does what is marked, or closes it.
-/// True: it is taken.
+/// A key or a letter while the search is open: types, moves, does what is marked (with Ctrl makes
+/// it a favourite, or none any more), or closes it. True: it is taken.
 bool search_takes(const InputEvent& event, UiState& ui, DocumentThread& document);
 
 /// Whether it can be done now.

@@ -2,13 +2,19 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "commands/ui_state.h"
+#include "picture/reference_image.h"
 
 namespace argil::viewer {
 
-/// Another reference image, in the straight view that the window shows, else in front: the window
-/// looks there then, and lists them. As large as the clay. What cannot be read is said.
+/// Asks for another reference image, in the straight view that the window shows, else in front: the
+/// window looks there, and lists it. It is put there once it was read (put_reference).
 void add_reference(const std::filesystem::path& file, UiState& ui);
+
+/// One whose pixels are there: as large as the clay.
+void put_reference(const ReferenceWish& wish, std::shared_ptr<const ReferencePixels> pixels,
+                   UiState& ui);
 
 }  // namespace argil::viewer

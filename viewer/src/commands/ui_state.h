@@ -19,9 +19,11 @@
 
 #include "commands/brush.h"
 #include "commands/brush_preset.h"
+#include "commands/favourites.h"
 #include "commands/import_choice.h"
 #include "commands/measure.h"
 #include "commands/outline.h"
+#include "commands/pie_menu.h"
 #include "commands/search_choice.h"
 #include "document/document_thread.h"
 #include "keys/key_map.h"
@@ -71,6 +73,7 @@ struct PanelState {
   bool has_help = false;
   bool has_keys = false;
   bool has_presets = false;
+  bool has_favourites = false;
   bool is_new_open = false;
   bool is_recent_open = false;
   bool is_operations_open = false;
@@ -229,6 +232,14 @@ struct PresetChoice {
 /// How many of them are remembered.
 inline constexpr std::size_t kMostPressures = 256;
 
+/// A reference image that is wanted, until it was read.
+struct ReferenceWish {
+  std::filesystem::path file;  ///< absolute
+  StraightView view = StraightView::front;
+  bool is_asked = false;    ///< the reader knows of it
+  bool is_dropped = false;  ///< it is not wanted any more
+};
+
 /// A picture larger than the window.
 struct StillChoice {
   bool is_open = false;  ///< the dialog
@@ -285,6 +296,8 @@ struct UiState {
   KeyChoice key_choice;
   std::vector<BrushPreset> presets;  ///< by name
   PresetChoice preset_choice;
+  Favourites favourites = usual_favourites();
+  PieMenu pie;  ///< their ring
   SearchChoice search;
   OutlineChoice outlines;
   std::optional<OutlineDrag> outline;  ///< while it is drawn
@@ -309,11 +322,13 @@ struct UiState {
   std::vector<mesh::Printer> printers;  ///< that can be chosen
   std::vector<AlphaChoice> alphas;      ///< likewise, once they were asked for
   bool wants_alphas = false;            ///< they shall be read, if they were not
+  bool reads_alphas = false;            ///< they are being read
   Settings settings;
   std::vector<float> pressures;    ///< of the pen's last strokes, as it told them, the newest last
   std::filesystem::path firmware;  ///< as in Settings, unless the command line named another
 
   std::vector<ReferenceImage> references;
+  std::vector<ReferenceWish> reference_wishes;
   std::optional<std::filesystem::path> dropped_image;  ///< it is asked what it is for
   std::optional<std::filesystem::path> dropped_alpha;  ///< to emboss with
 

@@ -652,10 +652,12 @@ void DocumentWorker::on(const LoadStamp& load) {
 }
 
 void DocumentWorker::on(const LoadAlpha& load) {
-  outbox_.begin_silent_task("read the image");
-  auto image = io::read_alpha(load.file);
+  auto image = io::read_alpha(load.file, outbox_.begin_task("read the image"));
   outbox_.end_task();
-  if (!image) return complain(image.error());
+  if (!image) {
+    if (image.error().kind != ErrorKind::interrupted) complain(image.error());
+    return;
+  }
   alpha_ =
       std::make_shared<const Alpha>(Alpha{load.file.filename().string(), std::move(image).value()});
 }

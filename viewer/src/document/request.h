@@ -114,7 +114,7 @@ struct ImportMesh {
 struct LoadStamp {
   std::filesystem::path file;
 };
-/// A PNG to emboss with: it becomes ClayState::alpha once it is read.
+/// A PNG or a JPEG to emboss with: it becomes ClayState::alpha once it is read.
 struct LoadAlpha {
   std::filesystem::path file;
 };

@@ -13,6 +13,7 @@
 #include "commands/key_choice.h"
 #include "commands/measure.h"
 #include "commands/preset_choice.h"
+#include "gestures/pie_gestures.h"
 #include "keys/mouse_habit.h"
 #include "picture/stereo.h"
 
@@ -55,6 +56,7 @@ void Gestures::on(const InputEvent& told, bool is_taken) {
   event.pressure = shaped_pressure(ui_.settings.pressure, told.pressure);
   const bool is_asked = open_dialog(ui_) != Dialog::none;
   if (is_asked) ui_.search.is_open = false;
+  if (pie_takes(event, !is_taken, ui_, document_)) return;
   if (!is_taken && search_takes(event, ui_, document_)) return;
   switch (event.kind) {
     case InputEvent::Kind::press:
@@ -149,6 +151,7 @@ void Gestures::do_key(const InputEvent& event) {
   const Command command = std::get<Command>(*aim);
   if (event.is_repeat && !goes_on_while_held(command)) return;
   perform(command, ui_, document_);
+  if (command == Command::favourites) hold_pie(event, ui_);
   // The letter that is told after the key would be typed into the search.
   if (command == Command::search && types_letter({event.key, event.modifiers})) {
     constexpr double kLetterS = 0.002;  // the window system tells it at once

@@ -31,6 +31,25 @@ void main() {
 }
 )";
 
+/// What is drawn smaller than it is would glitter without the smaller ones, which are there: to
+/// have them made here would hold up the frame four times as long. An image of more pixels a side
+/// than the card takes begins with the first that it takes.
+void upload(const ReferencePixels& pixels) {
+  GLint most_side = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_side);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  GLint level = 0;
+  const auto put = [&](const PixelLevel& each) {
+    if (std::max(each.width, each.height) > most_side) return;
+    glTexImage2D(GL_TEXTURE_2D, level++, GL_RGBA8, each.width, each.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, each.rgba.data());
+  };
+  put(pixels);
+  for (const PixelLevel& each : pixels.smaller) put(each);
+  set_texture(GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+}
+
 }  // namespace
 
 GlTexture texture_of(ObjectCount& count, const ReferencePixels& pixels) {
@@ -39,13 +58,7 @@ GlTexture texture_of(ObjectCount& count, const ReferencePixels& pixels) {
          4 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
   GlTexture texture(count);
   bind_texture(0, texture.name());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, pixels.width, pixels.height, 0, GL_RGBA,
-               GL_UNSIGNED_BYTE, pixels.rgba.data());
-  set_texture(GL_LINEAR);
-  // What is drawn smaller than it is would glitter.
-  glGenerateMipmap(GL_TEXTURE_2D);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  upload(pixels);
   bind_texture(0, 0);
   return texture;
 }

@@ -76,6 +76,13 @@ class LineReader {
       finger();
     } else if (command == "key") {
       key();
+    } else if (command == "hold") {
+      const KeyChord held = read_chord();
+      InputEvent& pressed = event(InputEvent::Kind::key_down);
+      pressed.key = held.key;
+      pressed.modifiers = held.modifiers;
+    } else if (command == "let") {
+      event(InputEvent::Kind::key_up).key = read_chord().key;
     } else if (command == "type") {
       type(rest("TEXT"));
     } else if (command == "click") {
@@ -275,15 +282,20 @@ class LineReader {
     moved.y = y;
   }
 
-  void key() {
+  KeyChord read_chord() {
     std::string word;
     words_ >> word;
     const auto chord = chord_of(word);
     if (!chord) throw Misread{in_quotes(word) + " is no key"};
+    return *chord;
+  }
+
+  void key() {
+    const KeyChord meant = read_chord();
     InputEvent& pressed = event(InputEvent::Kind::key_down);
-    pressed.key = chord->key;
-    pressed.modifiers = chord->modifiers;
-    event(InputEvent::Kind::key_up).key = chord->key;  // and with it what was held
+    pressed.key = meant.key;
+    pressed.modifiers = meant.modifiers;
+    event(InputEvent::Kind::key_up).key = meant.key;  // and with it what was held
   }
 
   /// One event a byte: scripts type ASCII.

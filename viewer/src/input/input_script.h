@@ -23,7 +23,7 @@ struct PlayEvent {
 struct WaitFrames {
   int frames = 1;
 };
-/// Waits until the clay has done all that was requested, and it was drawn.
+/// Waits until the clay has done all that was requested, images were read, and it was drawn.
 struct Settle {};
 /// Moves the pointer to a widget, by its label, once it stays in its place.
 struct PointAt {
@@ -48,6 +48,7 @@ struct ScriptStep {
 ///   move X Y                    press|release left|right|middle [ctrl+shift+alt]
 ///   drag BUTTON X Y X Y [N] [MODIFIERS]      in N moves; usual 12
 ///   scroll STEPS                key Ctrl+Z                  type TEXT
+///   hold KEY                    let KEY                     one that stays down meanwhile
 ///   click LABEL                 settle                      frames N
 ///   pen PRESSURE [eraser]       of all that follows, 0 to 1, with its other end
 ///   puck X Y Z RX RY RZ S       of a 3D mouse, as fractions of its reach (-1 to 1), for S seconds

@@ -28,7 +28,7 @@ std::vector<std::string> endings_of(FileWish wish) {
   std::vector<std::string> meshes{".3mf", ".stl", ".obj", ".ply", ".glb"};
   if (wish == FileWish::save_as) return {".vdb"};
   if (wish == FileWish::firmware) return {".bin"};
-  if (wish == FileWish::alpha || wish == FileWish::reference) return {".png"};
+  if (wish == FileWish::alpha || wish == FileWish::reference) return {".png", ".jpg", ".jpeg"};
   if (wish == FileWish::path) return {".jsonl", ".csv", ".txt", ".xyz"};
   if (wish == FileWish::export_mesh) return meshes;
   meshes.emplace_back(".gltf");  // only read

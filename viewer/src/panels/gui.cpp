@@ -2,8 +2,10 @@
 #include "panels/gui.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <initializer_list>
 #include <utility>
@@ -289,6 +291,32 @@ bool tile(const char* label, double width, double height) {
   const bool pressed =
       ImGui::InvisibleButton(label, {static_cast<float>(width), static_cast<float>(height)});
   note_widget(label);
+  return pressed;
+}
+
+bool star(const char* label, bool is_on) {
+  constexpr int kCorners = 10;  // far ones and near ones in turn
+  constexpr float kNear = 0.42F;
+  const float side = ImGui::GetFontSize();
+  const bool pressed = ImGui::InvisibleButton(label, {side, side});
+  note_widget(label);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 middle{low.x + 0.5F * side, low.y + 0.54F * side};
+  std::array<ImVec2, kCorners> corners;
+  for (int n = 0; n < kCorners; ++n) {
+    const float angle = 6.2831853F * static_cast<float>(n) / kCorners;
+    const float away = 0.5F * side * (n % 2 == 0 ? 1.0F : kNear);
+    corners[static_cast<std::size_t>(n)] = {middle.x + away * std::sin(angle),
+                                            middle.y - away * std::cos(angle)};
+  }
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 color =
+      ImGui::GetColorU32(ImGui::IsItemHovered() || is_on ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+  for (int n = 0; is_on && n < kCorners; ++n) {
+    list.AddTriangleFilled(middle, corners[static_cast<std::size_t>(n)],
+                           corners[static_cast<std::size_t>((n + 1) % kCorners)], color);
+  }
+  list.AddPolyline(corners.data(), kCorners, color, ImDrawFlags_Closed, 0.07F * side);
   return pressed;
 }
 

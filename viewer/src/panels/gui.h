@@ -90,6 +90,8 @@ bool choice(const char* label, bool is_chosen, double width = 0.0);
 /// An area of this size to click on; the caller draws what it shows.
 bool tile(const char* label, double width, double height);
 bool check(const char* label, bool& value);
+/// A star, filled where `is_on`, in the place of a letter; true when it is clicked.
+bool star(const char* label, bool is_on);
 bool slide(const char* label, double& value, double least, double most, const char* format,
            bool is_logarithmic = false);
 bool slide(const char* label, int& value, int least, int most);

@@ -56,7 +56,10 @@ void draw_choice(const AlphaChoice& alpha, bool is_chosen, DocumentThread& docum
 
 void draw_alphas(UiState& ui, DocumentThread& document) {
   ui.wants_alphas = true;
-  if (ui.alphas.empty()) return;
+  if (ui.alphas.empty()) {
+    if (ui.reads_alphas) ImGui::TextDisabled("reading the images...");
+    return;
+  }
   const float u = unit();
   const int rows = (static_cast<int>(ui.alphas.size()) + kPaletteColumns - 1) / kPaletteColumns;
   const float high = (kThumbPixels + 3.0F) * u * static_cast<float>(std::min(rows, kRowsShown));

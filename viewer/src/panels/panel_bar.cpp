@@ -53,6 +53,8 @@ bool is_on(Command command, const UiState& ui) {
       return ui.panels.has_help;
     case Command::presets:
       return ui.panels.has_presets;
+    case Command::favourite_list:
+      return ui.panels.has_favourites;
     case Command::keys:
       return ui.panels.has_keys;
     case Command::figures:
@@ -107,6 +109,10 @@ std::string words_of_drawing(const UiState& ui) {
 /// What the buttons of the mouse do now.
 std::string buttons_of(const UiState& ui) {
   const std::string others = std::string(", ") + mouse_words(ui.keys.set()).status_line;
+  if (ui.pie.is_open) {
+    return ui.pie.held_key != 0 ? "Let go: choose, in the middle: nothing"
+                                : "Left: choose, right or Esc: close";
+  }
   if (!ui.clay.has_clay) return "";
   if (ui.places_drain) return std::string("Left: place the drain") + others;
   if (ui.draws_path) return std::string("Left: draw the path") + others;

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "commands/command.h"
+#include "commands/favourite_choice.h"
 #include "commands/preset_choice.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
@@ -35,6 +36,7 @@ void draw_preset(const BrushPreset& preset, UiState& ui) {
   if (tile(preset.name.c_str(), static_cast<double>(side), static_cast<double>(0.8F * side))) {
     choose_preset(preset, ui);
   }
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) toggle_favourite(preset.name, ui);
   if (!ImGui::IsItemVisible()) return;
   const ImVec2 low = ImGui::GetItemRectMin();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -69,7 +71,14 @@ void draw_chosen_preset(UiState& ui) {
   const BrushPreset* preset = preset_named(choice.chosen, ui);
   if (preset == nullptr) return;
   ImGui::Separator();
-  ImGui::TextUnformatted(fitted(preset->name, 220.0F * unit()).c_str());
+  const Favourite favourite = preset->name;
+  const bool is_favourite = place_of(favourite, ui).has_value();
+  if (star("star of the brush", is_favourite)) toggle_favourite(favourite, ui);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip(is_favourite ? "a favourite; a click: no more" : "make it a favourite");
+  }
+  ImGui::SameLine();
+  ImGui::TextUnformatted(fitted(preset->name, 200.0F * unit()).c_str());
   const std::string key = preset_key_text(*preset, ui);
   const std::string shown = choice.waits_for_key ? "press a key..." : key.empty() ? "no key" : key;
   if (button("preset key", shown, static_cast<double>(110.0F * unit()))) {

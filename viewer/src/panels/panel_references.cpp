@@ -42,7 +42,10 @@ bool draw_reference(ReferenceImage& image, const std::string& number_text) {
   const std::string name = image.file.filename().string();
   ImGui::TextUnformatted(name.c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", image.file.string().c_str());
-  if (!image.pixels) ImGui::TextDisabled("it cannot be read: see the messages");
+  if (!image.pixels) {
+    ImGui::TextDisabled(image.is_awaited ? "it is being read..."
+                                         : "it cannot be read: see the messages");
+  }
   ImGui::PushItemWidth(kReferenceFieldWidth * unit());
   int view = static_cast<int>(image.view);
   if (pick_one(label("View").c_str(), view, view_titles())) {
@@ -58,6 +61,16 @@ bool draw_reference(ReferenceImage& image, const std::string& number_text) {
   return false;
 }
 
+/// What is being read; nobody has to wait for it.
+void draw_wished(std::vector<ReferenceWish>& wishes) {
+  int number = 0;
+  for (ReferenceWish& wish : wishes) {
+    if (button(("Stop##wish" + std::to_string(++number)).c_str())) wish.is_dropped = true;
+    ImGui::SameLine();
+    ImGui::TextDisabled("reading %s...", wish.file.filename().string().c_str());
+  }
+}
+
 }  // namespace
 
 void draw_references(UiState& ui) {
@@ -66,10 +79,11 @@ void draw_references(UiState& ui) {
   ImGui::SetNextWindowSize({kReferencesWidth * unit(), 0.0F});
   keep_on_screen(kReferencesWidth);
   ImGui::Begin("Reference images", &ui.panels.has_references, ImGuiWindowFlags_NoSavedSettings);
-  if (ui.references.empty()) {
+  if (ui.references.empty() && ui.reference_wishes.empty()) {
     ImGui::PushTextWrapPos(0.0F);
     ImGui::TextDisabled(
-        "PNG images to sculpt by: each is shown while the window looks straight in its view");
+        "PNG or JPEG images to sculpt by: each is shown while the window looks straight in its "
+        "view");
     ImGui::PopTextWrapPos();
   }
   std::optional<std::size_t> removed;
@@ -79,6 +93,7 @@ void draw_references(UiState& ui) {
   if (removed) {
     ui.references.erase(std::next(ui.references.begin(), static_cast<std::ptrdiff_t>(*removed)));
   }
+  draw_wished(ui.reference_wishes);
   if (button("Add an image...")) ui.file_wish = FileWish::reference;
   ImGui::End();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The search of commands: a line to type into, and what it finds, with keys.
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "commands/command.h"
 #include "commands/command_search.h"
+#include "commands/favourite_choice.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr float kSearchWidth = 420.0F;  // units
 constexpr std::size_t kSearchRows = 12;
+constexpr float kStarLeft = 396.0F;
 
 /// What was typed, with a caret: keys and letters come by way of the gestures (search_takes), so
 /// that none is lost before a field has the keyboard.
@@ -41,8 +44,9 @@ void draw_search_text(const SearchChoice& choice) {
   ImGui::Dummy({wide, high});
 }
 
-/// True when it is clicked.
-bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_now) {
+/// True when it is clicked; `is_starred` when its star is.
+bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_now,
+                     bool is_favourite, bool& is_starred) {
   const ImGuiCol color = is_possible_now ? ImGuiCol_Text : ImGuiCol_TextDisabled;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(color));
   const std::string label = entry.title + "##found" + entry.place;
@@ -52,13 +56,22 @@ bool draw_search_row(const SearchEntry& entry, bool is_marked, bool is_possible_
   // One row is marked: the one that Enter means.
   ImGui::PushStyleColor(ImGuiCol_HeaderHovered,
                         ImGui::GetStyleColorVec4(is_marked ? mark : ImGuiCol_FrameBg));
-  const bool is_clicked = choice(label.c_str(), is_marked);
+  // As far as the star, which takes its own clicks.
+  const bool is_clicked =
+      choice(label.c_str(), is_marked, static_cast<double>((kStarLeft - 14.0F) * unit()));
   ImGui::PopStyleColor(3);
   const ImVec4 beside = ImGui::GetStyleColorVec4(is_marked ? ImGuiCol_Text : ImGuiCol_TextDisabled);
   ImGui::SameLine(220.0F * unit());
   ImGui::TextColored(beside, "%s", entry.place.c_str());
   ImGui::SameLine(300.0F * unit());
   ImGui::TextColored(beside, "%s", entry.chord.c_str());
+  ImGui::SameLine(kStarLeft * unit());
+  const std::string star_label = "star " + entry.title + "##" + entry.place;
+  is_starred = star(star_label.c_str(), is_favourite);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip(is_favourite ? "a favourite; Ctrl+Enter: no more"
+                                   : "make it a favourite: Ctrl+Enter");
+  }
   return is_clicked;
 }
 
@@ -84,7 +97,12 @@ void draw_search(UiState& ui, DocumentThread& document) {
   if (found.empty()) ImGui::TextDisabled("no command has that name");
   std::optional<SearchEntry> chosen;
   for (std::size_t n = first; n < last; ++n) {
-    if (draw_search_row(found[n], n == search.at, is_possible(found[n], ui))) chosen = found[n];
+    const Favourite favourite = favourite_of(found[n].aim);
+    bool is_starred = false;
+    const bool is_clicked = draw_search_row(found[n], n == search.at, is_possible(found[n], ui),
+                                            place_of(favourite, ui).has_value(), is_starred);
+    if (is_clicked) chosen = found[n];
+    if (is_starred) toggle_favourite(favourite, ui);
   }
   if (found.size() > last) {
     ImGui::TextDisabled("and %d more", static_cast<int>(found.size() - last));

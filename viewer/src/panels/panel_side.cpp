@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "commands/command.h"
+#include "commands/favourite_choice.h"
 #include "panels/gui.h"
 #include "panels/layout.h"
 #include "panels/panels.h"
@@ -50,6 +51,7 @@ void draw_tool(const ToolInfo& info, UiState& ui) {
   if (tile(info.title, static_cast<double>(size.x), static_cast<double>(size.y))) {
     choose_tool(info, ui);
   }
+  if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) toggle_favourite(&info, ui);
   // While something is measured the brush rests.
   const bool is_on = is_chosen(ui.brush, info) && !ui.measures.tool;
   const ImVec2 low = ImGui::GetItemRectMin();

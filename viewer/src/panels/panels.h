@@ -54,6 +54,9 @@ void draw_search(UiState& ui, DocumentThread& document);
 void draw_help(UiState& ui);
 void draw_keys(UiState& ui);
 void draw_presets(UiState& ui);
+void draw_favourites(UiState& ui);
+/// The ring of favourites, over all else.
+void draw_pie(const UiState& ui);
 void draw_thickness(const UiState& ui);
 void draw_status(const UiState& ui, const FrameState& frame);
 void draw_toasts(MessageLog& log);

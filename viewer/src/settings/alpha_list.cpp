@@ -11,6 +11,8 @@
 #include "argil/io/alpha_file.h"
 #include "argil/io/safe_file.h"
 
+#include "base/text.h"
+
 namespace argil::viewer {
 namespace {
 
@@ -66,14 +68,15 @@ void fill_alphas(const fs::path& folder, std::vector<Error>& problems) {
 
 }  // namespace
 
-AlphaList read_alphas(const fs::path& home) {
+AlphaList read_alphas(const fs::path& home, const Progress& progress) {
   AlphaList list;
   const fs::path folder = home / "alphas";
   std::error_code error;
   if (!fs::exists(folder, error)) fill_alphas(folder, list.problems);
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() != ".png") continue;
-    auto image = io::read_alpha(entry.path());
+    if (!has_image_ending(entry.path())) continue;
+    auto image = io::read_alpha(entry.path(), progress);
+    if (!image && image.error().kind == ErrorKind::interrupted) break;
     if (!image) {
       list.problems.push_back(image.error());
       continue;
@@ -85,8 +88,8 @@ AlphaList read_alphas(const fs::path& home) {
   return list;
 }
 
-Result<fs::path> add_alpha(const fs::path& home, const fs::path& file) {
-  const auto image = io::read_alpha(file);
+Result<fs::path> add_alpha(const fs::path& home, const fs::path& file, const Progress& progress) {
+  const auto image = io::read_alpha(file, progress);
   if (!image) return image.error();
   const fs::path folder = home / "alphas";
   if (std::error_code error; !fs::exists(folder, error)) {
@@ -95,7 +98,7 @@ Result<fs::path> add_alpha(const fs::path& home, const fs::path& file) {
     if (!problems.empty()) return problems.front();
   }
   const auto is_same = [&](const fs::path& there) {
-    const auto other = io::read_alpha(there);
+    const auto other = io::read_alpha(there, progress);
     return other && io::alpha_hash(*other.value()) == io::alpha_hash(*image.value());
   };
   constexpr std::size_t kMostBytes = 200;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 
 namespace argil::viewer {
@@ -30,19 +31,21 @@ struct AlphaChoice {
   std::array<std::uint8_t, kThumbSide * kThumbSide> thumb{};
 };
 
-/// The images in HOME/alphas, by name. Where there is no such folder, it is made with the built-in
-/// ones in it: who removes some of them is not given them again.
+/// The PNG and JPEG images in HOME/alphas, by name. Where there is no such folder, it is made with
+/// the built-in ones in it: who removes some of them is not given them again.
 struct AlphaList {
   std::vector<AlphaChoice> alphas;
   std::vector<Error> problems;  ///< of files that are no image, or could not be written
 };
+/// Where `progress` says so it ends early, with those that were read until then.
 /// Cost  decodes every image: 4 ms for one of 256 x 256 pixels.
-AlphaList read_alphas(const std::filesystem::path& home);
+AlphaList read_alphas(const std::filesystem::path& home, const Progress& progress = {});
 
-/// Copies a PNG into HOME/alphas, under its own name or, where another image has that, the next
-/// free one; the file there. One that lies there already stays.
-/// Errors  bad_input, where it is no image (io::read_alpha); disk.
+/// Copies an image into HOME/alphas as a PNG, under its own name or, where another image has that,
+/// the next free one; the file there. One that lies there already stays.
+/// Errors  bad_input, where it is no image, and interrupted, as io::read_alpha; disk.
 Result<std::filesystem::path> add_alpha(const std::filesystem::path& home,
-                                        const std::filesystem::path& file);
+                                        const std::filesystem::path& file,
+                                        const Progress& progress = {});
 
 }  // namespace argil::viewer

@@ -16,7 +16,9 @@
 #include <system_error>
 #include <utility>
 
-#include "argil/io/png.h"
+#include "argil/core/no_throw.h"
+#include "argil/core/pace.h"
+#include "argil/io/image_file.h"
 #include "argil/io/safe_file.h"
 
 namespace argil::viewer {
@@ -88,40 +90,6 @@ std::string line_of(const ReferenceImage& image, const fs::path& folder) {
   return line.append((is_inside ? near : image.file).string()).append("\n");
 }
 
-/// By its first bytes, and before the file is read: success for what is no PNG, of which
-/// io::read_png knows what to say.
-Result<void> check_pixels(const fs::path& file) {
-  constexpr std::size_t kHead = 24;  // signature, length and name of the header, both sides
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  std::array<char, kHead> head{};
-  std::ifstream in(file, std::ios::binary);
-  if (!in.read(head.data(), kHead)) return {};
-  if (std::string_view(head.data(), kSignature.size()) != kSignature) return {};
-  const auto side_at = [&](std::size_t at) {
-    std::int64_t side = 0;
-    for (std::size_t n = 0; n < 4; ++n) side = side << 8 | static_cast<unsigned char>(head[at + n]);
-    return side;
-  };
-  const std::int64_t width = side_at(16);
-  const std::int64_t height = side_at(20);
-  // What is longer io::read_png refuses.
-  const bool is_long = std::max(width, height) > io::kMostPngSide;
-  if (is_long || width * height <= kMostReferencePixels) return {};
-  return Error{ErrorKind::bad_input,
-               "'" + file.string() + "' is " + std::to_string(width) + " x " +
-                   std::to_string(height) + " pixels; a reference image may have " +
-                   std::to_string(kMostReferencePixels) + ", make it smaller"};
-}
-
-Result<std::shared_ptr<const ReferencePixels>> reference_pixels(const fs::path& file) {
-  if (auto fits = check_pixels(file); !fits) return fits.error();
-  auto read = io::read_png(file);
-  if (!read) return read.error();
-  io::ClearImage& image = read.value();
-  return std::make_shared<const ReferencePixels>(
-      ReferencePixels{image.width, image.height, std::move(image.rgba)});
-}
-
 /// The lines of a list; none where there is no such file.
 Result<std::vector<std::string>> lines_in(const fs::path& file) {
   std::error_code error;
@@ -164,11 +132,6 @@ ReferenceList read_references(const fs::path& project) {
       list.unread.push_back(std::move(line));
       continue;
     }
-    if (auto pixels = reference_pixels(image->file)) {
-      image->pixels = std::move(pixels).value();
-    } else {
-      list.problems.push_back(pixels.error());
-    }
     list.images.push_back(*std::move(image));
   }
   return list;
@@ -191,21 +154,20 @@ Result<void> write_references(const fs::path& project, const std::vector<Referen
   return io::replace_text(file, lines);
 }
 
-Result<ReferenceImage> reference_of(const fs::path& file, StraightView view, double width_mm) {
+Result<std::shared_ptr<const ReferencePixels>> read_pixels(const fs::path& file,
+                                                           const Progress& progress) {
   if (file.string().find('\n') != std::string::npos) {
     return Error{ErrorKind::bad_input, "'" + file.string() +
                                            "' has a name of more than a line, which the list of "
                                            "references cannot keep; rename it"};
   }
-  auto pixels = reference_pixels(file);
-  if (!pixels) return pixels.error();
-  ReferenceImage image;
-  std::error_code error;
-  image.file = fs::absolute(file, error);
-  image.view = view;
-  image.width_mm = width_mm;
-  image.pixels = std::move(pixels).value();
-  return image;
+  using Pixels = std::shared_ptr<const ReferencePixels>;
+  return no_throw(file.string(), [&]() -> Result<Pixels> {
+    auto read = io::read_image(file, kMostReferencePixels, progress);
+    if (!read) return read.error();
+    io::ClearImage& image = read.value();
+    return with_smaller(image.width, image.height, std::move(image.rgba), Pace(progress, "read"));
+  });
 }
 
 }  // namespace argil::viewer

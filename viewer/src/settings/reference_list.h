@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "argil/core/progress.h"
 #include "argil/core/result.h"
 
 #include "picture/reference_image.h"
@@ -21,12 +23,11 @@ std::filesystem::path references_file(const std::filesystem::path& project);
 struct ReferenceList {
   std::vector<ReferenceImage> images;
   std::vector<std::string> unread;  ///< lines that name no image, without their ends
-  std::vector<Error> problems;      ///< of lines and images that could not be read
+  std::vector<Error> problems;      ///< of lines that could not be read
 };
 
-/// Those of a project, their pixels read; none where it has no such file. An image that cannot be
-/// read stays in the list without pixels: it may be back the next time. A list that cannot be read
-/// is a problem.
+/// Those of a project, without their pixels; none where it has no such file. A list that cannot be
+/// read is a problem.
 ReferenceList read_references(const std::filesystem::path& project);
 
 /// Replaces the file whole; removes it where there is nothing to keep. Files in the project's
@@ -37,13 +38,14 @@ Result<void> write_references(const std::filesystem::path& project,
                               const std::vector<ReferenceImage>& images,
                               const std::vector<std::string>& unread = {});
 
-/// The most pixels of a reference image: the window waits while they are read.
-inline constexpr std::int64_t kMostReferencePixels = 12'500'000;
+/// The most pixels of a reference image: 358 MB with the smaller ones, here and on the graphics
+/// card.
+inline constexpr std::int64_t kMostReferencePixels = 64 * 1024 * 1024;
 
-/// Another image of a file, with its pixels, as wide as `width_mm`.
-/// Errors  as io::read_png; bad_input: more pixels than kMostReferencePixels, or a file's name of
+/// The pixels of a file, with its smaller ones.
+/// Errors  as io::read_image; bad_input: more pixels than kMostReferencePixels, or a file's name of
 ///         more than a line.
-Result<ReferenceImage> reference_of(const std::filesystem::path& file, StraightView view,
-                                    double width_mm);
+Result<std::shared_ptr<const ReferencePixels>> read_pixels(const std::filesystem::path& file,
+                                                           const Progress& progress = {});
 
 }  // namespace argil::viewer

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "argil/core/pace.h"
 #include "argil/io/png.h"
 #include "argil/io/safe_file.h"
 
@@ -74,8 +75,8 @@ std::optional<io::TextedImage> picture_of(const fs::path& folder, const fs::path
 
 std::shared_ptr<const ReferencePixels> shared_pixels(io::ClearImage&& image) {
   assert(image.width > 0 && image.height > 0);
-  return std::make_shared<const ReferencePixels>(
-      ReferencePixels{image.width, image.height, std::move(image.rgba)});
+  const Progress never_stops;
+  return with_smaller(image.width, image.height, std::move(image.rgba), Pace(never_stops, "read"));
 }
 
 /// For nobody but the user, who alone may look into the folder.

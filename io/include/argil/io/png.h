@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "argil/core/progress.h"
 #include "argil/core/result.h"
 #include "argil/engine/render.h"
+#include "argil/io/image_file.h"
 
 namespace argil::io {
 
@@ -37,32 +37,17 @@ Result<std::vector<std::byte>> pack_png(const std::string& name, const Image& im
                                         const std::vector<PngText>& texts,
                                         const Progress& progress = {});
 
-/// An image with transparency: four bytes a pixel, red, green, blue and opacity, in sRGB, rows from
-/// the top.
-struct ClearImage {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgba;
-};
-
-/// The longest side of an image that read_png takes.
-inline constexpr int kMostPngSide = 8192;
-
-/// Any PNG, as eight bits a channel.
-/// Errors  bad_input naming the file: no PNG; a side of more than kMostPngSide, before any pixel is
-///         unpacked; damaged or cut off, in libpng's words. disk, memory.
-Result<ClearImage> read_png(const std::filesystem::path& file);
-
 /// A PNG with its texts; what is compressed or of many languages (zTXt, iTXt) is left out.
 struct TextedImage {
   ClearImage image;
   std::vector<PngText> texts;  ///< in the order of the file
 };
 
-/// The same of a small picture that anybody may have written, within bounds: nothing is unpacked of
-/// one whose sides are above `most_side`, or of a file of more than 8 bytes for each pixel of such
-/// a picture and 64 KB.
-/// Errors  as read_png, with these bounds in the place of its own; also for a damaged text.
+/// Such a PNG as read_image() reads it, of a small picture that anybody may have written, within
+/// bounds: nothing is unpacked of one whose sides are above `most_side`, or of a file of more than
+/// 8 bytes for each pixel of such a picture and 64 KB. Errors  as read_image, with these bounds in
+/// the place of its own; also for what is no PNG, and for
+///         a damaged text.
 Result<TextedImage> read_small_png(const std::filesystem::path& file, int most_side);
 
 }  // namespace argil::io
