@@ -34,6 +34,7 @@ class ViewRecentGl : public test::WindowTest {
   WindowRun played(const std::string& script, const std::string& arguments) {
     const WindowRun run = play("settle\n" + script, arguments);
     EXPECT_EQ(run.status, 0) << run.words;
+    if (run.status != 0) return run;
     EXPECT_EQ(run.report["gl_errors"], 0);
     EXPECT_EQ(run.report["complaints"].size(), 0U) << run.report.dump();
     return run;

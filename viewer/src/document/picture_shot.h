@@ -25,7 +25,7 @@ struct PictureShot {
 /// As a window sees it that looks from there; without a view, from the front and above. Of a large
 /// clay the coarse levels alone, in which a picture of 256 pixels loses nothing. Nothing where no
 /// piece is visible or has a surface.
-/// Threads  the clay's. Cost  10 to 20 ms of a core, of 8 million vertices 80 (bench_pictures).
+/// Threads  the clay's. Cost  10 to 25 ms of a core, of 8 million vertices 90 (bench_pictures).
 /// Errors   memory: nothing.
 std::optional<PictureShot> shoot(const Sculpture& sculpture,
                                  const std::optional<DisplayView>& view);
