@@ -19,17 +19,17 @@ Result<TriangleMesh> parsed_obj(const std::string& text) {
   return parse_obj(std::as_bytes(std::span(text)), "a.obj");
 }
 
-const std::string kText = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string kObjText = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 TEST(ReadObjText, MayBeginWithTheMarkOfUtf8) {
-  const auto mesh = parsed_obj("\xEF\xBB\xBF" + kText);
+  const auto mesh = parsed_obj("\xEF\xBB\xBF" + kObjText);
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh.value().positions.size(), 3U);
 }
 
 TEST(ReadObjText, MayBeUtf16WithItsMark) {
   for (const bool higher_first : {true, false}) {
-    std::string text = test::utf16(kText + "# ?\n", higher_first);
+    std::string text = test::utf16(kObjText + "# ?\n", higher_first);
     // A letter beyond ASCII.
     const std::size_t mark = text.find('?');
     text[higher_first ? mark - 1 : mark + 1] = '\x26';
@@ -39,12 +39,12 @@ TEST(ReadObjText, MayBeUtf16WithItsMark) {
     EXPECT_THAT(parsed_obj(test::utf16("v 0 0 x\n", higher_first)).error().message,
                 HasSubstr("a.obj:1: 'x' is not a number"));
     // Cut in the middle of the last line end.
-    EXPECT_FALSE(parsed_obj(test::utf16(kText, higher_first).substr(0, 65)));
+    EXPECT_FALSE(parsed_obj(test::utf16(kObjText, higher_first).substr(0, 65)));
   }
 }
 
 TEST(ReadObjText, MayEndLinesAsOldMacsDo) {
-  std::string text = "# a\n" + kText;
+  std::string text = "# a\n" + kObjText;
   for (char& c : text) c = c == '\n' ? '\r' : c;
   const auto mesh = parsed_obj(text);
   ASSERT_TRUE(mesh) << mesh.error().message;
@@ -53,7 +53,7 @@ TEST(ReadObjText, MayEndLinesAsOldMacsDo) {
 }
 
 TEST(ReadObjText, MayHaveAStrayCarriageReturn) {
-  const auto mesh = parsed_obj("# a\rb\n" + kText);
+  const auto mesh = parsed_obj("# a\rb\n" + kObjText);
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_EQ(mesh.value().positions.size(), 3U);
 }

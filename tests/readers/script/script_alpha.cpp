@@ -115,7 +115,7 @@ TEST_F(ScriptAlpha, NamesKeyAndRemedyOfWhatIsWrong) {
   EXPECT_THAT(error_of(R"("alpha":"none.png")"), AllOf(HasSubstr("key 'alpha' cannot be used: '"),
                                                        HasSubstr("none.png' is not there")));
   fill(file("text.png"), "no image");
-  EXPECT_THAT(error_of(R"("alpha":"text.png")"), HasSubstr("text.png' is no PNG"));
+  EXPECT_THAT(error_of(R"("alpha":"text.png")"), HasSubstr("text.png' is neither PNG nor JPEG"));
   EXPECT_EQ(error_of(R"("alpha":3)"), "key 'alpha' is 3; must be the name of a file");
   EXPECT_EQ(error_of(R"("alpha_xxh64":"0123456789abcdef")"),
             "key 'alpha' is missing; name a file, seen from the script's folder");
