@@ -114,7 +114,7 @@ void add_view(CLI::App& app, Selected& selected) {
       ->type_name("SCRIPT");
   command
       ->add_option("--home", options->home,
-                   "where unsaved projects, settings and printers are kept")
+                   "where unsaved projects, settings, printers and pictures are kept")
       ->type_name("FOLDER");
   command->add_flag("--latency", options->shows_latency,
                     "show how long after an input its dab is on the screen");

@@ -7,11 +7,14 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include <png.h>
 #include <sys/types.h>
 
 #include "argil/core/pace.h"
+
+#include "format/png_text.h"
 
 namespace argil::io {
 namespace {
@@ -31,8 +34,10 @@ struct PngHeader {
 /// The bytes of a PNG on their way to libpng, as a stream, because libpng asks nobody while it
 /// unpacks what lies in memory.
 struct PngBytes {
-  std::span<const std::byte> left;
-  std::size_t size = 0;
+  std::vector<std::span<const std::byte>> parts;
+  std::size_t size = 0;   ///< of all
+  std::size_t given = 0;  ///< of all
+  std::size_t part = 0;   ///< from which comes what is next
   const Progress& progress;
   bool is_stopped = false;
 };
@@ -40,13 +45,19 @@ struct PngBytes {
 /// A fault makes libpng give up. No exception may pass it.
 ssize_t give_bytes(void* cookie, char* to, std::size_t size) noexcept {
   PngBytes& bytes = *static_cast<PngBytes*>(cookie);
-  const double left = static_cast<double>(bytes.left.size());
-  bytes.is_stopped =
-      bytes.progress && !bytes.progress("read", 1.0 - left / static_cast<double>(bytes.size));
+  bytes.is_stopped = bytes.progress && !bytes.progress("read", static_cast<double>(bytes.given) /
+                                                                   static_cast<double>(bytes.size));
   if (bytes.is_stopped) return -1;
-  const std::size_t given = std::min(size, bytes.left.size());
-  std::memcpy(to, bytes.left.data(), given);
-  bytes.left = bytes.left.subspan(given);
+  std::size_t given = 0;
+  while (given < size && bytes.part < bytes.parts.size()) {
+    std::span<const std::byte>& left = bytes.parts[bytes.part];
+    const std::size_t count = std::min(size - given, left.size());
+    std::memcpy(to + given, left.data(), count);
+    left = left.subspan(count);
+    given += count;
+    if (left.empty()) ++bytes.part;
+  }
+  bytes.given += given;
   return static_cast<ssize_t>(given);
 }
 
@@ -58,7 +69,8 @@ struct CloseStream {
 
 Result<ClearImage> parse_png(const std::filesystem::path& file, std::span<const std::byte> bytes,
                              const ImageBounds& bounds, const Progress& progress) {
-  PngBytes given{bytes, bytes.size(), progress, false};
+  // Texts are not wanted, and each may unpack to megabytes, of which libpng keeps a thousand.
+  PngBytes given{pixel_parts(bytes), bytes.size(), 0, 0, progress, false};
   const std::unique_ptr<std::FILE, CloseStream> stream(
       ::fopencookie(&given, "rb", {give_bytes, nullptr, nullptr, nullptr}));
   if (!stream) throw std::bad_alloc();

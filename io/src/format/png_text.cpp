@@ -4,6 +4,7 @@
 #include "format/png_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <string_view>
@@ -75,6 +76,27 @@ std::vector<std::byte> with_texts(std::vector<std::byte> png, const std::vector<
   const auto* begin = reinterpret_cast<const std::byte*>(chunks.data());
   png.insert(png.begin() + static_cast<std::ptrdiff_t>(kHeaderEnd), begin, begin + chunks.size());
   return png;
+}
+
+std::vector<std::span<const std::byte>> pixel_parts(std::span<const std::byte> png) {
+  constexpr std::array<std::string_view, 9> kOfPixels = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS",
+                                                         "gAMA", "cHRM", "sRGB", "iCCP"};
+  const std::string_view bytes(reinterpret_cast<const char*>(png.data()), png.size());
+  std::vector<std::span<const std::byte>> parts;
+  std::size_t begin = 0;  // of what is kept together
+  std::size_t at = std::min(kPngSignature, bytes.size());
+  while (bytes.size() - at >= kAroundChunk) {
+    const std::size_t length = chunk_number(bytes, at);
+    if (length > bytes.size() - at - kAroundChunk) break;
+    const std::size_t end = at + kAroundChunk + length;
+    if (std::ranges::find(kOfPixels, bytes.substr(at + 4, 4)) == kOfPixels.end()) {
+      if (at > begin) parts.push_back(png.subspan(begin, at - begin));
+      begin = end;
+    }
+    at = end;
+  }
+  if (bytes.size() > begin) parts.push_back(png.subspan(begin));
+  return parts;
 }
 
 std::optional<std::vector<PngText>> texts_of(std::span<const std::byte> png) {

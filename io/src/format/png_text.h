@@ -11,8 +11,8 @@
 
 namespace argil::io {
 
-// The simplified interface of libpng, which png.cpp uses, knows no texts: they are put into, and
-// found in, the chunks of a whole PNG.
+// The simplified interface of libpng, which png.cpp and png_read.cpp use, knows no texts: they are
+// put into, found in and kept out of the chunks of a whole PNG.
 
 /// Whether a tEXt chunk can keep it.
 bool is_png_text(const PngText& text) noexcept;
@@ -24,5 +24,9 @@ std::vector<std::byte> with_texts(std::vector<std::byte> png, const std::vector<
 /// All texts of a PNG, whatever its bytes are; nothing where a chunk is cut off or a text's sum is
 /// wrong.
 std::optional<std::vector<PngText>> texts_of(std::span<const std::byte> png);
+
+/// The bytes that the pixels need, in order: all but the chunks that are about something else. Of
+/// what is damaged all from there on, for its reader to judge.
+std::vector<std::span<const std::byte>> pixel_parts(std::span<const std::byte> png);
 
 }  // namespace argil::io

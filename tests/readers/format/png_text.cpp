@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,23 @@ TEST_F(PngTextRead, GivesTheTextsThatWereWrittenAndThePixels) {
   const auto plain = read_image(file(), 1 << 20);
   ASSERT_TRUE(plain);
   EXPECT_EQ(plain.value().rgba, seen.value().image.rgba);
+}
+
+/// Each compressed text may unpack to megabytes, and libpng would keep a thousand of them.
+TEST_F(PngTextRead, ReadsNoTextOnTheWayToThePixels) {
+  const auto whole = pack_png("a.png", small_image(), {{"One", "text"}, {"Two", "texts"}}).value();
+  const auto bare = pack_png("a.png", small_image()).value();
+  std::vector<std::byte> kept;
+  for (const auto& part : pixel_parts(whole)) kept.insert(kept.end(), part.begin(), part.end());
+  EXPECT_EQ(kept, bare);
+  // What is cut off is not judged here.
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    kept.clear();
+    for (const auto& part : pixel_parts(std::span(whole).first(size))) {
+      kept.insert(kept.end(), part.begin(), part.end());
+    }
+    EXPECT_LE(kept.size(), size);
+  }
 }
 
 TEST_F(PngTextRead, RefusesToWriteWhatPngCannotKeep) {

@@ -51,7 +51,8 @@ class ViewRecentGl : public test::WindowTest {
 
   /// What a dialog of the window with this project shows, where its pictures are.
   std::vector<std::uint8_t> pictures_in_dialog(const std::string& opens, const fs::path& project) {
-    played(opens + "move 5 470\nframes 3\nsettle\nframes 3\nshot dialog.png\nkey Esc\nsettle\n",
+    // What is behind a dialog grows dark within a sixth of a second: 50 frames take longer.
+    played(opens + "move 5 470\nframes 3\nsettle\nframes 50\nshot dialog.png\nkey Esc\nsettle\n",
            shell_word(project));
     const Image image = test::read_picture(folder_ / "dialog.png");
     std::vector<std::uint8_t> column;

@@ -91,9 +91,10 @@ void Screens::expect_dialogs_seen() {
                   seen("still", "click File\nframes 2\nclick Still picture...\n", esc) +
                   seen("import", "drop " + mesh.string() + "\nframes 3\nsettle\n", esc) +
                   seen("search", "key Ctrl+K\n", esc) +
+                  seen("recent", "key Ctrl+Shift+O\nsettle\n", esc) +
                   seen("image", "drop " + (folder_ / "new.png").string() + "\n", esc),
               {"New clay", "Open", "Save as", "Export for printing", "Whole clay", "Still picture",
-               "Import", "What is the image for?"});
+               "Import", "What is the image for?", "Recent files"});
 }
 
 void Screens::expect_panels_seen() {
@@ -108,10 +109,11 @@ void Screens::expect_panels_seen() {
                   panel("measurements", "Ctrl+Alt+U") + panel("messages", "Ctrl+M") +
                   panel("help", "F1") + panel("keys", "Shift+F1") + panel("slice", "Shift+W") +
                   searched("device", "Device panel") + searched("print", "Print") +
+                  searched("favourites", "Change favourites") +
                   searched("references", "Reference images") +
                   searched("figures", "Clay's figures"),
               {"Pieces", "History", "Presets", "Measure", "Messages", "Keys and mouse",
-               "Change keys", "Device", "Print", "Reference images"});
+               "Change keys", "Device", "Print", "Favourites", "Reference images"});
 }
 
 void Screens::expect_menus_and_tools_seen() {

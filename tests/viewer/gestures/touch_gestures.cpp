@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One finger is the pointer, several are the view.
-#include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +91,64 @@ TEST_F(TouchGesturesTest, AnOutlineStaysWhereItWasDrawn) {
   move(1, {10.0, 50.0});
   move(2, {50.0, 50.0});
   EXPECT_EQ(test::projected(ui_.camera, {}), before);
+}
+
+TEST_F(TouchGesturesTest, ASecondFingerTakesBackAPointOfACurve) {
+  ui_.brush.stroke_mode = StrokeMode::curve;
+  down(1, pointer_);
+  mouse(InputEvent::Kind::press);
+  ASSERT_TRUE(ui_.guide);
+  down(2, {50.0, 50.0}, 0.1);
+  EXPECT_FALSE(ui_.guide);
+}
+
+/// Taps by themselves: what commands do is of others.
+class TouchTaps : public testing::Test {
+ protected:
+  /// So many fingers come within the time, one moves so far, and all leave at its end.
+  std::optional<Command> tap(unsigned fingers, double end_s, double way = 0.0,
+                             bool is_taken = false) {
+    InputEvent event;
+    for (event.finger = 1; event.finger <= fingers; ++event.finger) {
+      event.kind = InputEvent::Kind::finger_down;
+      event.x = 100.0 * event.finger;
+      touch_.on(event, is_taken);
+    }
+    event.kind = InputEvent::Kind::finger_move;
+    event.finger = 1;
+    event.x = 100.0 + way;
+    touch_.on(event, is_taken);
+    event.kind = InputEvent::Kind::finger_up;
+    event.time_s = end_s;
+    std::optional<Command> told;
+    for (event.finger = 1; event.finger <= fingers; ++event.finger) {
+      const TouchGestures::Answer answer = touch_.on(event, is_taken);
+      if (answer.command) told = answer.command;
+    }
+    EXPECT_FALSE(touch_.has_view());
+    return told;
+  }
+
+  UiState ui_;
+  TouchGestures touch_{ui_};
+};
+
+TEST_F(TouchTaps, OfTwoTakesAStepBackAndOfThreeForward) {
+  EXPECT_EQ(tap(2, 0.2), Command::undo);
+  EXPECT_EQ(tap(3, 0.2), Command::redo);
+  EXPECT_EQ(tap(1, 0.2), std::nullopt);
+  EXPECT_EQ(tap(4, 0.2), std::nullopt);
+}
+
+TEST_F(TouchTaps, AreShortAndStayWhereTheyAre) {
+  EXPECT_EQ(tap(2, 0.4), std::nullopt);
+  EXPECT_EQ(tap(2, 0.2, 30.0), std::nullopt);
+  EXPECT_EQ(tap(2, 0.2, 5.0), Command::undo);
+}
+
+TEST_F(TouchTaps, OnAPanelAreForThePanel) {
+  EXPECT_EQ(tap(2, 0.2, 0.0, true), std::nullopt);
+  EXPECT_EQ(tap(2, 0.2), Command::undo) << "the next are judged anew";
 }
 
 }  // namespace

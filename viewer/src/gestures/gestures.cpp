@@ -84,7 +84,7 @@ void Gestures::on(const InputEvent& told, bool is_taken) {
     case InputEvent::Kind::finger_down:
     case InputEvent::Kind::finger_move:
     case InputEvent::Kind::finger_up:
-      if (touch_.on(event)) let_go(event.time_s);
+      take_finger(event, is_taken || is_asked);
       break;
     case InputEvent::Kind::key_down:
       if (!is_taken || is_for_everybody(event, ui_)) key(event, is_asked);
@@ -169,17 +169,20 @@ void Gestures::escape() {
   ui_.turntable_left = 0;
   if (ui_.brush_drag) ui_.brush = ui_.brush_drag->before;
   ui_.brush_drag.reset();
-  if (drag_ == Drag::stroke) {
-    // A dab that was never laid is no stroke: the one before would be taken back.
-    const bool is_begun = !has_one_dab(*stroke_) || stroke_->is_laid;
-    stroke_.reset();
-    if (is_begun) document_.send(CancelStroke{});
-  }
+  if (drag_ == Drag::stroke) cancel_stroke();
   if (drag_ == Drag::stroke || drag_ == Drag::piece || drag_ == Drag::measure) drag_ = Drag::none;
   if (ends || std::exchange(ui_.asks_to_drop, false)) return;
   const bool was_asked = ui_.clay.left.has_value();
   if (was_asked) document_.send(ForgetQuestion{});
   if (!close_dialogs(ui_) && !was_asked) leave_measuring(ui_.measures);
+}
+
+void Gestures::cancel_stroke() {
+  assert(stroke_);
+  // A dab that was never laid is no stroke: the one before would be taken back.
+  const bool is_begun = !has_one_dab(*stroke_) || stroke_->is_laid;
+  stroke_.reset();
+  if (is_begun) document_.send(CancelStroke{});
 }
 
 // ---- the mouse ---------------------------------------------------------------------------------
@@ -202,6 +205,8 @@ void Gestures::press(const InputEvent& event) {
   }
   button_ = event.button;
   pressed_s_ = event.time_s;
+  outline_before_ = ui_.outline;
+  guide_before_ = ui_.guide;
   if (ui_.draws_path && event.button == MouseButton::left && !event.modifiers.alt) {
     begin_path(event);
     return;
@@ -418,15 +423,34 @@ void Gestures::puck(const InputEvent& event) {
               {0.5 * camera.width(), 0.5 * camera.height()});
 }
 
+void Gestures::take_finger(const InputEvent& event, bool is_taken) {
+  const TouchGestures::Answer answer = touch_.on(event, is_taken);
+  if (answer.begins_view) let_go(event.time_s);
+  if (answer.command && !ui_.outline) perform(*answer.command, ui_, document_);
+}
+
 /// A second finger has come: the view is meant. What the first has only just begun is taken back, a
 /// stroke that went on for a while stands.
 void Gestures::let_go(double now_s) {
   constexpr double kJustBegunS = 0.25;
-  if (drag_ == Drag::stroke && now_s - pressed_s_ > kJustBegunS) {
-    end_stroke();
-  } else if (drag_ != Drag::none && drag_ != Drag::orbit && drag_ != Drag::pan &&
-             drag_ != Drag::hand) {
-    escape();
+  const bool has_just_begun = now_s - pressed_s_ <= kJustBegunS;
+  if (drag_ == Drag::stroke) {
+    if (has_just_begun) {
+      cancel_stroke();
+    } else {
+      end_stroke();
+    }
+  }
+  if (drag_ == Drag::piece) pieces_.cancel();
+  if (drag_ == Drag::measure) measures_.cancel();
+  if (drag_ == Drag::path) {
+    path_probe_.reset();
+    ui_.drawn_path_mm.clear();
+  }
+  // A line, an outline, or a point of one that is clicked together.
+  if (drag_ == Drag::line || drag_ == Drag::outline || has_just_begun) {
+    ui_.outline = std::exchange(outline_before_, std::nullopt);
+    ui_.guide = std::exchange(guide_before_, std::nullopt);
   }
   drag_ = Drag::none;
 }

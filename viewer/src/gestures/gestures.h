@@ -30,7 +30,7 @@ class Gestures {
         probe_(std::move(probe)),
         pieces_(ui, document),
         measures_(ui, document),
-        touch_(ui, document) {}
+        touch_(ui) {}
 
   /// `is_taken`: a panel has taken the event, so that it begins nothing here.
   void on(const InputEvent& told, bool is_taken);
@@ -72,7 +72,9 @@ class Gestures {
   void move(const InputEvent& event);
   void release(const InputEvent& event);
   void puck(const InputEvent& event);
+  void take_finger(const InputEvent& event, bool is_taken);
   void let_go(double now_s);
+  void cancel_stroke();
   void key(const InputEvent& event, bool is_asked);
   void do_key(const InputEvent& event);
   void escape();
@@ -106,7 +108,10 @@ class Gestures {
   Probe probe_;
   Drag drag_ = Drag::none;
   MouseButton button_ = MouseButton::left;  ///< that began the drag
-  double pressed_s_ = 0.0;                  ///< when it did
+  // Of the last press: when it was, and what it may have added to.
+  double pressed_s_ = 0.0;
+  std::optional<OutlineDrag> outline_before_;
+  std::optional<StrokeGuide> guide_before_;
   std::optional<OpenStroke> stroke_;
   bool lays_guide_ = false;   ///< a line or a curve is being made a stroke
   bool paints_mask_ = false;  ///< the stroke that was begun last masks, whatever the tool

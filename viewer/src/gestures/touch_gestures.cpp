@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/command.h"
 #include "picture/stereo.h"
 
 namespace argil::viewer {
@@ -18,32 +17,33 @@ Camera::Pixel place_of(const InputEvent& event) { return {event.x, event.y}; }
 
 }  // namespace
 
-bool TouchGestures::on(const InputEvent& event) {
+TouchGestures::Answer TouchGestures::on(const InputEvent& event, bool is_taken) {
   switch (event.kind) {
     case InputEvent::Kind::finger_down:
-      return press(event);
+      return {press(event, is_taken), std::nullopt};
     case InputEvent::Kind::finger_move:
       move(event);
-      return false;
+      return {};
     case InputEvent::Kind::finger_up:
-      lift(event);
-      return false;
+      return {false, lift(event)};
     default:
-      return false;
+      return {};
   }
 }
 
-bool TouchGestures::press(const InputEvent& event) {
+bool TouchGestures::press(const InputEvent& event, bool is_taken) {
   if (fingers_.empty()) {
     first_s_ = event.time_s;
     most_ = 0;
-    has_moved_ = false;
+    has_moved_ = is_of_panel_ = false;
   }
   fingers_[event.finger] = {place_of(event), place_of(event)};
   most_ = std::max(most_, fingers_.size());
-  const bool is_second = fingers_.size() == 2 && !has_view_;
-  has_view_ = has_view_ || is_second;
-  return is_second;
+  const bool is_second = fingers_.size() == 2 && !has_view_ && !is_of_panel_;
+  is_of_panel_ = is_of_panel_ || (is_second && is_taken);
+  const bool begins_view = is_second && !is_taken;
+  has_view_ = has_view_ || begins_view;
+  return begins_view;
 }
 
 bool TouchGestures::is_beyond_tap(const Finger& finger) const {
@@ -64,7 +64,7 @@ TouchGestures::Spread TouchGestures::spread() const {
   return all;
 }
 
-/// An outline lies over the picture as it was, and what a dialog asks about stays in sight.
+/// An outline lies over the picture as it was.
 void TouchGestures::move(const InputEvent& event) {
   const auto found = fingers_.find(event.finger);
   if (found == fingers_.end()) return;
@@ -75,7 +75,7 @@ void TouchGestures::move(const InputEvent& event) {
     has_moved_ = is_beyond_tap(found->second);  // from there on, so that the view does not jump
     return;
   }
-  if (ui_.outline || open_dialog(ui_) != Dialog::none) return;
+  if (ui_.outline) return;
   const Spread now = spread();
   ui_.camera.pan(now.middle.x - before.middle.x, now.middle.y - before.middle.y);
   // Of fingers that lie on each other the ratio would be anything.
@@ -85,13 +85,13 @@ void TouchGestures::move(const InputEvent& event) {
                   between_eyes(ui_.camera, ui_.show.is_stereo, now.middle));
 }
 
-void TouchGestures::lift(const InputEvent& event) {
-  if (fingers_.erase(event.finger) == 0 || !fingers_.empty()) return;
+std::optional<Command> TouchGestures::lift(const InputEvent& event) {
+  if (fingers_.erase(event.finger) == 0 || !fingers_.empty()) return std::nullopt;
   const bool is_tap = has_view_ && !has_moved_ && event.time_s - first_s_ <= kTapS;
   has_view_ = false;
-  if (!is_tap || ui_.outline || open_dialog(ui_) != Dialog::none) return;
-  if (most_ == 2) perform(Command::undo, ui_, document_);
-  if (most_ == 3) perform(Command::redo, ui_, document_);
+  if (is_tap && most_ == 2) return Command::undo;
+  if (is_tap && most_ == 3) return Command::redo;
+  return std::nullopt;
 }
 
 }  // namespace argil::viewer

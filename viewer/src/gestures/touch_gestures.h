@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 
 #include "commands/ui_state.h"
-#include "document/document_thread.h"
 #include "input/input_event.h"
+#include "keys/command_info.h"
 
 namespace argil::viewer {
 
@@ -17,10 +18,16 @@ namespace argil::viewer {
 /// Threads  the window's.
 class TouchGestures {
  public:
-  TouchGestures(UiState& ui, DocumentThread& document) : ui_(ui), document_(document) {}
+  struct Answer {
+    bool begins_view = false;        ///< a second finger has come: what the first has begun is over
+    std::optional<Command> command;  ///< what a tap asks for
+  };
 
-  /// A finger came, moved or left. True when it is the second: what the first has begun is over.
-  bool on(const InputEvent& event);
+  explicit TouchGestures(UiState& ui) : ui_(ui) {}
+
+  /// A finger came, moved or left. `is_taken`: the first works a panel, or a dialog asks; then they
+  /// are no view until all have left.
+  Answer on(const InputEvent& event, bool is_taken);
 
   /// From the second finger on until all have left: the pointer is one of them, and works nothing.
   bool has_view() const noexcept { return has_view_; }
@@ -35,19 +42,19 @@ class TouchGestures {
     Camera::Pixel middle;
     double radius = 0.0;
   };
-  bool press(const InputEvent& event);
+  bool press(const InputEvent& event, bool is_taken);
   void move(const InputEvent& event);
-  void lift(const InputEvent& event);
+  std::optional<Command> lift(const InputEvent& event);
   Spread spread() const;
   bool is_beyond_tap(const Finger& finger) const;
 
   UiState& ui_;
-  DocumentThread& document_;
   std::map<unsigned, Finger> fingers_;  ///< that are down
   std::size_t most_ = 0;                ///< at once, since the first came
   double first_s_ = 0.0;                ///< when that was
   bool has_view_ = false;
-  bool has_moved_ = false;  ///< farther than in a tap
+  bool is_of_panel_ = false;  ///< until all have left
+  bool has_moved_ = false;    ///< farther than in a tap
 };
 
 }  // namespace argil::viewer

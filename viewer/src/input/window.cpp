@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -51,6 +52,19 @@ int glfw_modifiers(const Modifiers& modifiers) {
          (modifiers.alt ? GLFW_MOD_ALT : 0);
 }
 
+/// GLFW 3.4 prefers Wayland, which tells no window its place, and beside which neither a pen nor
+/// fingers are heard (pen.h): X11, also that of a Wayland session, where there is one.
+bool start_glfw() {
+#ifdef GLFW_PLATFORM_X11
+  if (std::getenv("DISPLAY") != nullptr) {
+    glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+    if (glfwInit() == GLFW_TRUE) return true;
+    glfwInitHint(GLFW_PLATFORM, GLFW_ANY_PLATFORM);
+  }
+#endif
+  return glfwInit() == GLFW_TRUE;
+}
+
 InputEvent::Kind kind_of(FingerEvent::What what) {
   switch (what) {
     case FingerEvent::What::down:
@@ -67,7 +81,7 @@ InputEvent::Kind kind_of(FingerEvent::What what) {
 
 Result<std::unique_ptr<Window>> Window::open(int width, int height, bool has_debug_context) {
   assert(width > 0 && height > 0);
-  if (glfwInit() != GLFW_TRUE) {
+  if (!start_glfw()) {
     return Error{ErrorKind::device, "there is no display to open a window on (" + last_words() +
                                         "); run in a desktop session, or under xvfb-run"};
   }

@@ -219,7 +219,7 @@ void FileList::draw_list(UiState& ui, DocumentThread& document, bool& is_open) {
   }
   ImGui::EndChild();
   if (has_picture) {
-    const fs::path file = chosen();
+    const fs::path file = folder_ / name_;  // asks no disk, as every frame would
     if (!name_.empty() && extension_of(file) == ".vdb") ui.marked_file = file;
     ImGui::SameLine();
     draw_marked_file(ui);

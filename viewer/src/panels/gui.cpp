@@ -179,6 +179,10 @@ bool Gui::feed(const InputEvent& event) {
     case InputEvent::Kind::scroll:
       if (io.WantCaptureMouse) queue_.add(event);
       return io.WantCaptureMouse;
+    case InputEvent::Kind::finger_down:  // the first moves the pointer
+    case InputEvent::Kind::finger_move:
+    case InputEvent::Kind::finger_up:
+      return io.WantCaptureMouse;
     case InputEvent::Kind::key_down:
     case InputEvent::Kind::key_up:
     case InputEvent::Kind::text:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ring of favourites around the pointer. It is drawn over all panels and is none itself: what
-// is chosen depends on directions alone (commands/pie_gestures.h), also before it was ever drawn.
+// is chosen depends on directions alone (gestures/pie_gestures.h), also before it was ever drawn.
 #include <array>
 #include <cassert>
 #include <cfloat>
