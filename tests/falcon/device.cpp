@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <thread>
 
 #include "argil/haptics/falcon/falcon_device.h"
@@ -154,6 +155,14 @@ struct PushingThread {
     return until([&] { return length(device.look().force_n) > 2.0; });
   }
 
+  /// Of how it is, for one that does not push.
+  std::string words() const {
+    const auto seen = device.look();
+    return "state " + std::to_string(static_cast<int>(seen.state)) + ", fault " +
+           std::to_string(static_cast<int>(seen.fault)) + ", attempt " +
+           std::to_string(seen.attempt) + ", force " + std::to_string(length(seen.force_n)) + " N";
+  }
+
   /// From the last word of the servo, whose thread is stopped for a while, until the device hears
   /// that there is no force. Not above 0 where a slow machine took the force before.
   double let_go_after_s(bool loses_a_reply) {
@@ -184,7 +193,7 @@ TEST(FalconThread, LetsGoWithinFiveMillisecondsWhenTheServosThreadIsStopped) {
   for (const bool loses_a_reply : {false, true}) {
     double quickest_s = HUGE_VAL;
     for (int n = 0; n < argil::test::effort(3, 20); ++n) {
-      ASSERT_TRUE(pushing.pushes());
+      ASSERT_TRUE(pushing.pushes()) << pushing.words();
       const double let_go_s = pushing.let_go_after_s(loses_a_reply);
       if (let_go_s > 0.0) quickest_s = std::min(quickest_s, let_go_s);
     }

@@ -178,7 +178,7 @@ def test_ctrl_c_is_heard(huge, large, fine, name, after_cpu_s, tmp_path, monkeyp
     before, depth = fine.hash(), fine.undo_depth
     fine.pick([[0, 0, 50.0]], [[0, 0, -1.0]])  # what a first pick builds is not what is asked here
     with pytest.raises(KeyboardInterrupt), Interrupt(after_cpu_s) as ctrl_c:
-        LONG[name](huge if name == "import" else large, fine)
+        LONG[name](huge if name in ("import", "repair") else large, fine)
     assert ctrl_c.sent_cpu_s is not None
     assert ctrl_c.heard_cpu_s - ctrl_c.sent_cpu_s < LATE_CPU_S
     assert fine.hash() == before and fine.undo_depth == depth and not list(tmp_path.iterdir())
