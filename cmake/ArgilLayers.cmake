@@ -41,7 +41,7 @@ set(ARGIL_FOLDERS_engine rows distance field feet edit import tool brush action 
 set(ARGIL_FOLDERS_haptics math force scene servo bridge falcon simulation analysis rig)
 set(ARGIL_FOLDERS_mesh topology measure check decimate repair prepare)
 set(ARGIL_FOLDERS_io file format mesh_format vdb script compare convert project)
-set(ARGIL_FOLDERS_viewer base picture settings document gl input keys commands gestures haptics panels app)
+set(ARGIL_FOLDERS_viewer base picture settings document gl input gui keys commands gestures haptics panels app)
 set(ARGIL_FOLDERS_evaluation measure chart blender scene rivals force stability bridge decimate memory surface edits
                              operations gallery normals report)
 set(ARGIL_FOLDERS_cli common shell play bridge lab)

@@ -98,7 +98,7 @@ set_up_system() {
 readonly compiled='engine/core/src/hash.cpp haptics/src/falcon/falcon_link.cpp engine/src/edit/coarsening_criterion.cpp
   engine/src/raycast/ray_scene.cpp mesh/src/repair/hole_fill.cpp mesh/src/repair/collapse_folded.cpp
   io/src/format/png.cpp io/src/vdb/vdb_tree.cpp
-  viewer/src/panels/gui.cpp cli/cmd_check.cpp python/src/clay.cpp'
+  viewer/src/gui/gui.cpp cli/cmd_check.cpp python/src/clay.cpp'
 
 # A file's object is the path of the file but for the folder CMake puts between; it has one of its own
 # without unity builds, and needs nothing else to be compiled without precompiled headers.

@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include "panels/panels.h"
+#include "viewer/support/imgui_frames.h"
 
 namespace argil::viewer {
 namespace {
@@ -19,12 +20,7 @@ std::ptrdiff_t place_of(const std::string& name) {
 }
 
 TEST(Toasts, AreDrawnOverAPanelThatIsWorkedIn) {
-  ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;
-  io.DisplaySize = {640.0F, 480.0F};
-  io.DeltaTime = 0.01F;
-  io.Fonts->Build();
+  const test::ImGuiFrames frames;
   MessageLog log;
   log.add({Notice::Kind::done, "saved"}, 0.0, "14:00:00");
   for (int frame = 0; frame < 4; ++frame) {
@@ -37,7 +33,6 @@ TEST(Toasts, AreDrawnOverAPanelThatIsWorkedIn) {
   }
   EXPECT_GE(place_of("panel"), 0);
   EXPECT_GT(place_of("##toast0"), place_of("panel"));
-  ImGui::DestroyContext();
 }
 
 }  // namespace

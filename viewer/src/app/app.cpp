@@ -20,8 +20,8 @@
 #include "gestures/measure_marks.h"
 #include "gestures/pie_gestures.h"
 #include "gestures/piece_gestures.h"
+#include "gui/layout.h"
 #include "haptics/felt_tool.h"
-#include "panels/layout.h"
 #include "picture/stereo.h"
 #include "settings/printer_list.h"
 

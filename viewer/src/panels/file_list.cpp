@@ -13,10 +13,10 @@
 #include "base/text.h"
 #include "commands/command.h"
 #include "commands/references.h"
-#include "panels/dialog.h"
+#include "gui/dialog.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/file_picture.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
 
 namespace argil::viewer {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "commands/ui_state.h"
 #include "document/document_thread.h"
-#include "panels/system_dialog.h"
+#include "gui/system_dialog.h"
 
 namespace argil::viewer {
 

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "base/text.h"
-#include "panels/dear_imgui.h"
-#include "panels/layout.h"
+#include "gui/dear_imgui.h"
+#include "gui/layout.h"
 
 namespace argil::viewer {
 namespace {

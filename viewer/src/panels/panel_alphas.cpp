@@ -5,8 +5,8 @@
 
 #include <imgui.h>
 
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -9,9 +9,9 @@
 
 #include "base/text.h"
 #include "commands/command.h"
-#include "panels/dialog.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/dialog.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -8,8 +8,8 @@
 
 #include "commands/command.h"
 #include "commands/favourite_choice.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -11,10 +11,10 @@
 #include "argil/haptics/servo/safety_gate.h"
 
 #include "commands/command.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "haptics/haptic_control.h"
 #include "haptics/haptic_words.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

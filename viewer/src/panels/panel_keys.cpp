@@ -10,8 +10,8 @@
 #include "base/text.h"
 #include "commands/command.h"
 #include "commands/key_choice.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

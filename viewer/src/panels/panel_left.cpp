@@ -9,10 +9,10 @@
 
 #include "base/text.h"
 #include "commands/command.h"
-#include "panels/dialog.h"
+#include "gui/dialog.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/file_picture.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -6,7 +6,7 @@
 #include <imgui.h>
 
 #include "commands/command.h"
-#include "panels/gui.h"
+#include "gui/gui.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -9,8 +9,8 @@
 #include "commands/command.h"
 #include "commands/measure.h"
 #include "gestures/measure_marks.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

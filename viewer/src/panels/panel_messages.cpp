@@ -6,8 +6,8 @@
 
 #include <imgui_internal.h>  // the order of windows
 
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -17,11 +17,11 @@
 #include "commands/preset_choice.h"
 #include "document/tool_info.h"
 #include "gestures/pie_gestures.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
+#include "gui/tool_picture.h"
 #include "keys/command_info.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
 #include "panels/panels.h"
-#include "panels/tool_picture.h"
 
 namespace argil::viewer {
 namespace {

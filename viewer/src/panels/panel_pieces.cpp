@@ -19,8 +19,8 @@
 #include "commands/command.h"
 #include "commands/piece_edits.h"
 #include "gestures/piece_gestures.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -9,10 +9,10 @@
 #include "commands/command.h"
 #include "commands/favourite_choice.h"
 #include "commands/preset_choice.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
+#include "gui/tool_picture.h"
 #include "panels/panels.h"
-#include "panels/tool_picture.h"
 
 namespace argil::viewer {
 namespace {

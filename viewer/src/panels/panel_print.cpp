@@ -8,8 +8,8 @@
 
 #include "base/text.h"
 #include "gestures/piece_gestures.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
 #include "panels/panels.h"
 
 namespace argil::viewer {

@@ -12,10 +12,10 @@
 #include "base/text.h"
 #include "commands/command.h"
 #include "commands/favourite_choice.h"
-#include "panels/gui.h"
-#include "panels/layout.h"
+#include "gui/gui.h"
+#include "gui/layout.h"
+#include "gui/tool_picture.h"
 #include "panels/panels.h"
-#include "panels/tool_picture.h"
 
 namespace argil::viewer {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/dialog.h"
+#include "gui/dialog.h"
 
 #include <algorithm>
 #include <cassert>
 
 #include <imgui.h>
 
-#include "panels/layout.h"
+#include "gui/layout.h"
 
 namespace argil::viewer {
 namespace {

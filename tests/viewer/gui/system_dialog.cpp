@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/system_dialog.h"
+#include "gui/system_dialog.h"
 
 #include <chrono>
 #include <csignal>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is cut off, one thing at a time, and next to it what is not.
-#include "panels/cut_off.h"
+#include "gui/cut_off.h"
 
 #include <string>
 #include <vector>
@@ -8,26 +8,16 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include "panels/gui.h"
+#include "gui/gui.h"
+#include "viewer/support/imgui_frames.h"
 
 namespace argil::viewer {
 namespace {
 
 using Strings = std::vector<std::string>;
 
-/// Dear ImGui without anything to draw on.
 class CutOffTest : public testing::Test {
  protected:
-  CutOffTest() {
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.DisplaySize = {640.0F, 480.0F};
-    io.DeltaTime = 0.01F;
-    io.Fonts->Build();
-  }
-  ~CutOffTest() override { ImGui::DestroyContext(); }
-
   /// What is found after these frames, each with one panel of this size and content.
   template <class Content>
   Strings found(const ImVec2& at, const ImVec2& size, ImGuiWindowFlags flags,
@@ -50,6 +40,8 @@ class CutOffTest : public testing::Test {
   static void three_lines() {
     for (int n = 0; n < 3; ++n) ImGui::TextUnformatted("one line of words");
   }
+
+  test::ImGuiFrames frames_;
 };
 
 TEST_F(CutOffTest, FindsNothingWhereAllIsSeen) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/tool_picture.h"
+#include "gui/tool_picture.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 
-#include "panels/gui.h"
+#include "gui/gui.h"
 
 namespace argil::viewer {
 namespace {

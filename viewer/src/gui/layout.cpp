@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/layout.h"
+#include "gui/layout.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <utility>
 
-#include "panels/gui.h"
+#include "gui/gui.h"
 
 namespace argil::viewer {
 namespace {

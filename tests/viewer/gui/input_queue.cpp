@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/input_queue.h"
+#include "gui/input_queue.h"
 
 #include <string>
 
@@ -7,22 +7,15 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/support/imgui_frames.h"
+
 namespace argil::viewer {
 namespace {
 
-/// Dear ImGui without anything to draw on, and events that all come between two frames.
+/// Events that all come between two frames.
 class InputQueueTest : public testing::Test {
  protected:
-  InputQueueTest() {
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
-    io.DisplaySize = {640.0F, 480.0F};
-    io.DeltaTime = 0.01F;
-    io.Fonts->Build();
-    name_keys(io);
-  }
-  ~InputQueueTest() override { ImGui::DestroyContext(); }
+  InputQueueTest() { name_keys(ImGui::GetIO()); }
 
   void add(InputEvent::Kind kind, int key, const Modifiers& modifiers = {}) {
     InputEvent event;
@@ -72,6 +65,7 @@ class InputQueueTest : public testing::Test {
     return frames;
   }
 
+  test::ImGuiFrames frames_;
   InputQueue queue_;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/input_queue.h"
+#include "gui/input_queue.h"
 
 #include <cassert>
 #include <utility>
 
-#include "panels/dear_imgui.h"
+#include "gui/dear_imgui.h"
 
 namespace argil::viewer {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/layout.h"
+#include "gui/layout.h"
 
 #include <cstddef>
 #include <string>

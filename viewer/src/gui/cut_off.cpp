@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/cut_off.h"
+#include "gui/cut_off.h"
 
 #include <optional>
 #include <utility>
@@ -7,7 +7,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>  // the windows of the last frame
 
-#include "panels/gui.h"
+#include "gui/gui.h"
 
 namespace argil::viewer {
 namespace {

@@ -9,8 +9,8 @@
 #include <imgui.h>
 
 #include "base/theme.h"
+#include "gui/input_queue.h"
 #include "input/input_event.h"
-#include "panels/input_queue.h"
 
 namespace argil::viewer {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "panels/gui.h"
+#include "gui/gui.h"
 
 #include <algorithm>
 #include <array>
