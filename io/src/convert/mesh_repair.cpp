@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -122,7 +123,8 @@ Result<void> Repair::rebuild(const TriangleMesh& from) {
   mesh_.normals.clear();
   mesh::drop_small_components(mesh_, kSpeckVoxels * voxel);
   mesh_ = mesh::rounded_to_float(std::move(mesh_));
-  report_.verdict = mesh::check_and_collapse_folded(mesh_);
+  report_.verdict = mesh::check_and_collapse_folded(mesh_, std::numeric_limits<double>::infinity(),
+                                                    Pace(progress_, "check"));
   return {};
 }
 
@@ -162,6 +164,7 @@ void Repair::measure_change(const Pace& pace) {
   constexpr double kSlack = 1e-4;      // of the largest side
   constexpr double kTolerance = 5e-3;  // the same
   constexpr double kVoxels = 1.5;      // edges that a level set rounds off
+  pace.at(0.0);
   report_.given_size_mm = mesh::used_bounds(input_).size();
   const double side = largest_of(report_.given_size_mm);
   const std::vector<bool> is_old = found_in(input_, mesh_, false);
@@ -180,8 +183,11 @@ void Repair::measure_change(const Pace& pace) {
   constexpr double kOfField = 0.8;
   const double usual = kTolerance * side * (report_.path == RepairPath::field ? kOfField : 1.0);
   const double least_loss = options_.voxel_mm > 0.0 ? tolerance : usual;
-  report_.loss =
-      measure_loss(input_, found_in(mesh_, input_, true), mesh_, least_loss, pace.part(0.4, 0.7));
+  pace.at(0.4);
+  const std::vector<bool> is_kept = found_in(mesh_, input_, true);
+  pace.at(0.4);
+  report_.loss = measure_loss(input_, is_kept, mesh_, least_loss, pace.part(0.4, 0.7));
+  pace.at(0.7);
   report_.guess = measure_guess(facing_, mesh_, is_old, tolerance, true, pace.part(0.7, 0.9));
   is_contradicted_ = report_.guessed_too_much();
   const double farthest = RepairLoss::kMostTolerances * tolerance;

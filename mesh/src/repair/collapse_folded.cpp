@@ -100,12 +100,12 @@ std::int64_t collapse_folded(TriangleMesh& mesh, double longest_mm) {
   return collapsed;
 }
 
-MeshVerdict check_and_collapse_folded(TriangleMesh& mesh, double longest_mm) {
+MeshVerdict check_and_collapse_folded(TriangleMesh& mesh, double longest_mm, const Pace& pace) {
   // A collapse may fold its neighbours.
   constexpr int kMostRounds = 4;
   MeshVerdict verdict;
   for (int round = 0; round < kMostRounds; ++round) {
-    verdict = check_mesh(mesh);
+    verdict = judge_mesh(mesh, {}, 0, wall_thickness, pace);
     const bool is_surface =
         verdict.closed && verdict.manifold && verdict.misoriented_edges + verdict.duplicate == 0;
     if (verdict.printable || !is_surface || collapse_folded(mesh, longest_mm) == 0) break;

@@ -46,7 +46,7 @@ class Mend {
 
  private:
   bool is_printable() {
-    report_.verdict = check_mesh(mesh_);
+    report_.verdict = judge_mesh(mesh_, {}, 0, wall_thickness, pace_.part(0.0, 0.0));
     return report_.verdict.printable;
   }
   void join_seams();
@@ -76,6 +76,7 @@ void Mend::join_seams() {
   report_.joined_vertices += static_cast<std::int64_t>(given - mesh_.positions.size());
   pace_.at(0.0);
   report_.interior_faces += drop_interior_faces(mesh_);
+  pace_.at(0.0);
   report_.closing.dropped_triangles += drop_repeated(mesh_);
   const RimsJoined joined = join_rims_as_needed(mesh_, near, kFarRims * size_);
   pace_.at(0.0);
@@ -84,6 +85,7 @@ void Mend::join_seams() {
   report_.closing.dropped_triangles += drop_repeated(mesh_);
   pace_.at(0.0);
   split_at_junctions(near);
+  pace_.at(0.0);
   report_.dropped_fins = drop_fins(mesh_);
   report_.interior_faces += drop_inner_walls(mesh_, pace_.part(0.0, 0.1));
 }
@@ -97,6 +99,7 @@ void Mend::split_at_junctions(double near) {
   constexpr int kMostPasses = 16;
   for (; near <= kFarthest * size_; near *= kStep) {
     for (int pass = 0; pass < kMostPasses; ++pass) {
+      pace_.at(0.0);
       const std::int64_t split = split_at_rims(mesh_, near);
       report_.split_edges += split;
       if (split == 0) break;
@@ -131,6 +134,7 @@ Result<void> Mend::close() {
     closed.value().report.dropped_triangles += report_.closing.dropped_triangles;
     report_.closing = closed.value().report;
   }
+  pace_.at(0.2);
   mesh_ = rounded_to_float(std::move(closed.value().mesh));
   facing_ = mesh_;
   facing_.triangles.resize(closed.value().given_triangles);
@@ -183,7 +187,7 @@ void Mend::bound_the_inside() {
     }
   }
   if (!report_.verdict.printable) {
-    report_.verdict = check_and_collapse_folded(mesh_, kSliver * size_);
+    report_.verdict = check_and_collapse_folded(mesh_, kSliver * size_, pace_.part(0.9, 0.9));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "argil/core/pace.h"
 #include "argil/core/triangle_mesh.h"
 #include "argil/mesh/check.h"
 
@@ -23,8 +24,7 @@ std::int64_t collapse_folded(TriangleMesh& mesh,
                              double longest_mm = std::numeric_limits<double>::infinity());
 
 /// Rounds of collapse_folded, at most four, until the mesh is printable or nothing more goes.
-/// Returns what check_mesh said last.
-MeshVerdict check_and_collapse_folded(TriangleMesh& mesh,
-                                      double longest_mm = std::numeric_limits<double>::infinity());
+/// Returns what check_mesh would say of it last. Throws Interrupted where `pace` asks to stop.
+MeshVerdict check_and_collapse_folded(TriangleMesh& mesh, double longest_mm, const Pace& pace);
 
 }  // namespace argil::mesh
