@@ -45,8 +45,10 @@ class Mend {
   Result<MendedMesh> run();
 
  private:
-  bool is_printable() {
-    report_.verdict = judge_mesh(mesh_, {}, 0, wall_thickness, pace_.part(0.0, 0.0));
+  /// `done` of all repair.
+  bool is_printable(double done) { return is_printable(pace_.part(done, done)); }
+  bool is_printable(const Pace& pace) {
+    report_.verdict = judge_mesh(mesh_, {}, 0, wall_thickness, pace);
     return report_.verdict.printable;
   }
   void join_seams();
@@ -122,7 +124,7 @@ bool Mend::cone_the_rest() {
   mesh_ = welded(rounded_to_float(std::move(coned)));
   report_.closing.holes_closed += report_.coned_holes;
   report_.closing.holes_left = 0;
-  is_printable();
+  is_printable(0.3);
   return true;
 }
 
@@ -163,7 +165,7 @@ bool Mend::resolve(const Pace& pace) {
   if (!resolved) return false;
   report_.united_parts += resolved->united_parts;
   mesh_ = std::move(resolved->mesh);
-  is_printable();
+  is_printable(pace.part(1.0, 1.0));
   return true;
 }
 
@@ -181,7 +183,7 @@ void Mend::bound_the_inside() {
         is.self_intersections + is.duplicate + is.degenerate == 0 && !is.manifold;
     if (only_touches) {
       part_where_touching();
-      is_printable();
+      is_printable(pace);
     } else if (!resolve(pace)) {
       return;
     }
@@ -193,7 +195,7 @@ void Mend::bound_the_inside() {
 
 void Mend::drop_crumbs_left() {
   report_.dropped_crumbs = drop_crumbs(mesh_, facing_);
-  if (report_.dropped_crumbs > 0) is_printable();
+  if (report_.dropped_crumbs > 0) is_printable(0.9);
 }
 
 /// All that changes no more than where the mesh is broken; the verdict says whether it did.
@@ -206,7 +208,7 @@ Result<void> Mend::mend() {
     mesh_ = rounded_to_float(std::move(mesh_));
   }
   if (auto closed = close(); !closed) return closed;
-  if (is_printable()) {
+  if (is_printable(0.2)) {
     drop_crumbs_left();
     return {};
   }
@@ -219,12 +221,12 @@ Result<void> Mend::mend() {
   pace_.at(0.3);
   if (cone_the_rest()) bound_the_inside();
   if (!report_.verdict.printable && !report_.verdict.manifold) part_where_touching();
-  if (is_printable()) drop_crumbs_left();
+  if (is_printable(0.9)) drop_crumbs_left();
   return {};
 }
 
 Result<MendedMesh> Mend::run() {
-  if (is_printable()) return MendedMesh{std::move(mesh_), {}, std::move(report_)};
+  if (is_printable(0.0)) return MendedMesh{std::move(mesh_), {}, std::move(report_)};
   const bool is_usable = !report_.verdict.marks.empty();
   if (!is_usable) {
     return Error{

@@ -2,6 +2,7 @@
 #include "input/raw_input.h"
 
 #include <array>
+#include <cstddef>
 
 namespace argil::viewer {
 
@@ -22,8 +23,13 @@ std::unique_ptr<RawInput> RawInput::open(int minor_version, std::initializer_lis
     return nullptr;
   }
   std::array<unsigned char, XIMaskLen(XI_LASTEVENT)> bits{};
-  for (const int kind : kinds) XISetMask(bits.data(), kind);
-  XISetMask(bits.data(), XI_HierarchyChanged);
+  // As XISetMask, whose conversion compilers may warn of.
+  const auto ask_for = [&bits](int kind) {
+    unsigned char& byte = bits.at(static_cast<std::size_t>(kind / 8));
+    byte = static_cast<unsigned char>(byte | 1U << static_cast<unsigned>(kind % 8));
+  };
+  for (const int kind : kinds) ask_for(kind);
+  ask_for(XI_HierarchyChanged);
   XIEventMask mask{XIAllDevices, static_cast<int>(bits.size()), bits.data()};
   if (XISelectEvents(display, DefaultRootWindow(display), &mask, 1) != Success) return nullptr;
   XFlush(display);
