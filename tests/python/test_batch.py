@@ -223,7 +223,7 @@ def test_a_worker_that_needs_too_much_memory_is_ended(tmp_path):
 
 
 def test_ctrl_c_keeps_what_is_done(tmp_path):
-    write_meshes(tmp_path / "meshes", 8)
+    write_meshes(tmp_path / "meshes", 40)  # many, since a busy machine reads of the first late
     process = start(tmp_path / "meshes", tmp_path / "out")
     read_until(process, "printable")
     pids = workers_of(process)
@@ -233,8 +233,8 @@ def test_ctrl_c_keeps_what_is_done(tmp_path):
     assert process.returncode == 130, text
     print(f"ended within {time.monotonic() - began:.1f} s")
     done = report(tmp_path / "out")
-    assert 1 <= len(done) < 11
+    assert 1 <= len(done) < 43
     assert all(json.loads((tmp_path / f"out/records/{name}.json").read_text()) for name in done)
     assert not any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids)
     subprocess.run(command(tmp_path / "meshes", tmp_path / "out"), timeout=300, check=False)
-    assert len(report(tmp_path / "out")) == 11
+    assert len(report(tmp_path / "out")) == 43
