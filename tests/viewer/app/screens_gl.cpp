@@ -46,6 +46,7 @@ class Screens : public test::WindowTest {
   void expect_dialogs_seen();
   void expect_panels_seen();
   void expect_menus_and_tools_seen();
+  void expect_questions_seen();
 
  private:
   /// What a script opens, its picture, and what closes it again.
@@ -53,9 +54,10 @@ class Screens : public test::WindowTest {
     return opens + "frames 6\nshot " + name + ".png\n" + closes + "frames 3\n";
   }
   /// Expects that a script shows these panels, and that all of them is seen; keeps its pictures.
-  void expect_seen(const std::string& script, const std::vector<std::string>& panels) {
+  void expect_seen(const std::string& script, const std::vector<std::string>& panels,
+                   const std::string& project = "s.vdb") {
     const WindowRun run = play(
-        "settle\n" + script + "key Ctrl+Q\nframes 4\n", shell_word(folder_ / "s.vdb"),
+        "settle\n" + script + "key Ctrl+Q\nframes 4\n", shell_word(folder_ / project),
         "--width " + std::to_string(screen_.width) + " --height " + std::to_string(screen_.height));
     EXPECT_EQ(run.status, 0) << run.words;
     ASSERT_TRUE(run.report.contains("cut_off")) << run.words;
@@ -131,6 +133,15 @@ void Screens::expect_menus_and_tools_seen() {
   expect_seen(script, {"Tools", "Brush", "View", "Status"});
 }
 
+/// About work that a killed window left, of a project with a long name; and whether to lose work.
+void Screens::expect_questions_seen() {
+  const std::string name = "a sculpture with a name that is longer than any dialog is wide";
+  ASSERT_NO_FATAL_FAILURE(test::leave_a_stroke(folder_ / (name + ".vdb")));
+  expect_seen(seen("recover", "", "click Recover\nsettle\n") +
+                  seen("save_first", "key Ctrl+Q\n", "click Back\nkey Ctrl+S\nsettle\n"),
+              {"Recover?", "Save first?"}, name + ".vdb");
+}
+
 class ScreensGl : public Screens, public testing::WithParamInterface<Screen> {
  protected:
   ScreensGl() : Screens(GetParam()) {}
@@ -138,6 +149,7 @@ class ScreensGl : public Screens, public testing::WithParamInterface<Screen> {
 
 TEST_P(ScreensGl, CutNoDialogOff) { expect_dialogs_seen(); }
 TEST_P(ScreensGl, CutNoPanelOff) { expect_panels_seen(); }
+TEST_P(ScreensGl, CutNoQuestionOff) { expect_questions_seen(); }
 TEST_P(ScreensGl, CutNoMenuOffAndNoTool) { expect_menus_and_tools_seen(); }
 
 INSTANTIATE_TEST_SUITE_P(ViewOn, ScreensGl,
@@ -156,6 +168,7 @@ TEST_F(ScreensSlow, CutNothingOffWhereLettersAreTwiceAsLarge) {
   expect_dialogs_seen();
   expect_panels_seen();
   expect_menus_and_tools_seen();
+  expect_questions_seen();
 }
 
 }  // namespace

@@ -36,17 +36,6 @@ const Clay& first_clay() {
   return clay;
 }
 
-/// A project of the first clay, and one stroke of a session that was never saved.
-void leave_a_stroke(const std::filesystem::path& project) {
-  auto session = io::Session::create(project, Clay::ball(25.0, {}).value());
-  ASSERT_TRUE(session.ok());
-  Stroke stroke;
-  stroke.samples = {{0.0, {25.0, 0.0, 0.0}, {}, 1.0}};
-  ASSERT_TRUE(session.value().clay().apply(stroke).ok());
-  session.value().record(stroke);
-  ASSERT_TRUE(session.value().flush().ok());
-}
-
 class ViewWindowGl : public test::WindowTest {
  protected:
   /// The sculpture after a script that ends with saving it, by a key that asks for its name.
@@ -363,7 +352,7 @@ TEST_F(ViewWindowGl, AnErrorStaysUntilItIsDismissedAndIsKeptInTheList) {
 
 TEST_F(ViewWindowGl, WhatAKilledWindowLeftCanBeLeftForLater) {
   const auto project = folder_ / "p.vdb";
-  ASSERT_NO_FATAL_FAILURE(leave_a_stroke(project));
+  ASSERT_NO_FATAL_FAILURE(test::leave_a_stroke(project));
   for (const char* const word : {"click Not now\n", "key Esc\n"}) {
     // A new ball, and the project as it was.
     const WindowRun run =
@@ -407,7 +396,7 @@ TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
 
 TEST_F(ViewWindowGl, WhatIsNotRecoveredIsKeptBesideTheProject) {
   const auto project = folder_ / "p.vdb";
-  ASSERT_NO_FATAL_FAILURE(leave_a_stroke(project));
+  ASSERT_NO_FATAL_FAILURE(test::leave_a_stroke(project));
   const WindowRun run = play("settle\nclick Open as it was saved\nsettle\nkey Ctrl+Q\nframes 3\n",
                              shell_word(project));
   EXPECT_EQ(run.status, 0) << run.words;

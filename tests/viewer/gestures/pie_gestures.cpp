@@ -136,6 +136,25 @@ TEST_F(PieTest, TheMiddleIsNothing) {
   EXPECT_EQ(chosen(), "");
 }
 
+/// All keys are let go then, though nobody let them go.
+TEST_F(PieTest, AnotherWindowThatTakesTheKeyboardChoosesNothing) {
+  InputEvent away;
+  away.kind = InputEvent::Kind::away;
+  down();
+  move_to(toward(kMiddle, 2.0, 80.0));
+  send(away);
+  up();
+  EXPECT_EQ(chosen(), "");
+  EXPECT_FALSE(ui_.pie.is_open);
+  // One that is open for a click waits for it.
+  move_to(kMiddle);
+  down();
+  up();
+  send(away);
+  press(MouseButton::left, toward(kMiddle, 5.0, 80.0));
+  EXPECT_EQ(chosen(), "5");
+}
+
 TEST_F(PieTest, EscapeTheRightButtonAndItsOwnKeyCloseIt) {
   for (int way = 0; way < 3; ++way) {
     move_to(kMiddle);

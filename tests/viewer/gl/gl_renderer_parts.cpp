@@ -141,7 +141,14 @@ TEST_F(RendererPartsGl, ADabThatMeetsTheEyeOrWhatIsAroundItDrawsAllOfIt) {
   EXPECT_EQ(count_different(draw({}), near), 0U);
 }
 
-TEST_F(RendererPartsGl, AMovingPictureHasFewerTrianglesAndNoHole) {
+/// Of a channel of a pixel, 0 to 255.
+double mean_difference(const Image& a, const Image& b) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < a.rgb.size(); ++n) sum += std::abs(a.rgb[n] - b.rgb[n]);
+  return sum / static_cast<double>(a.rgb.size());
+}
+
+TEST_F(RendererPartsGl, AMovingPictureHasFewerTrianglesAndPixelsAndNoHole) {
   renderer_.reset();
   auto made = viewer::make_gl_renderer_with({0, true});
   ASSERT_TRUE(made.ok()) << made.error().message;
@@ -152,9 +159,12 @@ TEST_F(RendererPartsGl, AMovingPictureHasFewerTrianglesAndNoHole) {
   const auto fine = renderer_->read_depth().depth_mm;
   const std::int64_t triangles = renderer_->counts().drawn_triangles;
   picture.is_moving = true;
-  draw(picture);
-  const auto coarse = renderer_->read_depth().depth_mm;
+  const Image moving = draw(picture);
+  const viewer::DepthMap coarse = renderer_->read_depth();
   EXPECT_LT(renderer_->counts().drawn_triangles, triangles / 2);
+  EXPECT_EQ(coarse.width, (kWidth + 1) / 2);
+  ASSERT_EQ(coarse.depth_mm.size(), static_cast<std::size_t>(coarse.width * coarse.height));
+  EXPECT_LT(mean_difference(moving, still), 4.0);
   // Where clay is on all sides of a pixel, there is clay in it, at about the same depth.
   std::size_t inside = 0;
   for (std::size_t n = 3 * kWidth; n + 3 * kWidth < fine.size(); ++n) {
@@ -163,11 +173,42 @@ TEST_F(RendererPartsGl, AMovingPictureHasFewerTrianglesAndNoHole) {
       is_inside = is_inside && std::isfinite(fine[n + static_cast<std::size_t>(step)]);
     if (!is_inside) continue;
     ++inside;
-    ASSERT_NEAR(coarse[n], fine[n], 1.5) << n;
+    const std::size_t row = n / kWidth / 2;
+    const std::size_t column = n % kWidth / 2;
+    ASSERT_NEAR(coarse.depth_mm[row * static_cast<std::size_t>(coarse.width) + column], fine[n],
+                2.5)
+        << n;
   }
   EXPECT_GT(inside, 10'000U);
   picture.is_moving = false;
   EXPECT_EQ(count_different(draw(picture), still), 0U);
+}
+
+/// They are tested against a depth that was drawn in fewer pixels.
+TEST_F(RendererPartsGl, MarksOfAMovingPictureAreHiddenByTheSameClay) {
+  renderer_.reset();
+  auto made = viewer::make_gl_renderer_with({0, true});
+  ASSERT_TRUE(made.ok()) << made.error().message;
+  renderer_ = std::move(made).value();
+  take_all();
+  const auto seen = [&](bool is_moving, double y_mm, bool is_pin) {
+    Picture picture;
+    picture.is_moving = is_moving;
+    const Image without = draw(picture);
+    if (is_pin) {
+      picture.pins.push_back({{0.0, y_mm, 0.0}});
+    } else {
+      picture.rings.push_back({{0.0, y_mm, 0.0}, {0.0, -1.0, 0.0}, 8.0});
+    }
+    return mean_difference(draw(picture), without);
+  };
+  for (const bool is_pin : {false, true}) {
+    const double before = seen(false, -24.0, is_pin);
+    const double behind = seen(false, 24.0, is_pin);
+    ASSERT_GT(before, 1.5 * behind);
+    EXPECT_NEAR(seen(true, -24.0, is_pin), before, 0.1 * before);
+    EXPECT_NEAR(seen(true, 24.0, is_pin), behind, 0.1 * behind);
+  }
 }
 
 TEST_F(RendererPartsGl, WhatLooksAwayIsLeftOut) {

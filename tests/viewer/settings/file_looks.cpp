@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <future>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,6 +23,10 @@ namespace argil::viewer {
 namespace {
 
 namespace fs = std::filesystem;
+
+auto look_in(const PicturePlaces& places) {
+  return [places](const fs::path& file) { return look_at_file(places, file); };
+}
 
 class FileLooksTest : public testing::Test {
  protected:
@@ -45,7 +51,7 @@ class FileLooksTest : public testing::Test {
 
 TEST_F(FileLooksTest, ComeInTheOrderOfTheListWithNews) {
   std::atomic<int> news = 0;
-  FileLooks looks({}, [&] { ++news; });
+  FileLooks looks(look_in({}), [&] { ++news; });
   EXPECT_TRUE(looks.is_idle());
   looks.want(files_);
   const std::vector<FileLook> all = all_that_come(looks);
@@ -59,7 +65,7 @@ TEST_F(FileLooksTest, ComeInTheOrderOfTheListWithNews) {
 }
 
 TEST_F(FileLooksTest, OfAListThatIsClosedOrAnotherOneNoneCome) {
-  FileLooks looks({}, [] {});
+  FileLooks looks(look_in({}), [] {});
   const std::vector<fs::path> last{files_[3]};
   for (int n = 0; n < 50; ++n) {
     looks.want(files_);
@@ -82,7 +88,7 @@ TEST_F(FileLooksTest, OfAFileThatIsBeingLookedAtWhenTheListIsClosedNoneComes) {
   }
   const fs::path& file = files_[7];
   ASSERT_TRUE(write_picture(places.saved, file, stamp_of(file).value(), noise).ok());
-  FileLooks looks(places, [] {});
+  FileLooks looks(look_in(places), [] {});
   for (int n = 0; n < 10; ++n) {
     looks.want({file});
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -94,7 +100,7 @@ TEST_F(FileLooksTest, OfAFileThatIsBeingLookedAtWhenTheListIsClosedNoneComes) {
 }
 
 TEST_F(FileLooksTest, AreAsTheFilesAreWhenTheyAreWantedAgain) {
-  FileLooks looks({}, [] {});
+  FileLooks looks(look_in({}), [] {});
   looks.want({files_[5]});
   EXPECT_EQ(all_that_come(looks).at(0).bytes, 5U);
   test::fill(files_[5], "changed meanwhile");
@@ -105,9 +111,38 @@ TEST_F(FileLooksTest, AreAsTheFilesAreWhenTheyAreWantedAgain) {
   EXPECT_FALSE(all_that_come(looks).at(0).is_there);
 }
 
+TEST_F(FileLooksTest, EndWhileADiskDoesNotAnswer) {
+  struct Disk {
+    std::atomic<bool> is_asked{false};
+    std::promise<void> answer;
+    std::promise<void> was_heard;
+  };
+  const auto disk = std::make_shared<Disk>();
+  std::atomic<int> news = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    FileLooks looks(
+        [disk](const fs::path& file) {
+          disk->is_asked = true;
+          disk->answer.get_future().wait();
+          disk->was_heard.set_value_at_thread_exit();
+          FileLook look;
+          look.file = file;
+          return look;
+        },
+        [&] { ++news; });
+    looks.want(files_);
+    while (!disk->is_asked) std::this_thread::yield();
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  disk->answer.set_value();
+  disk->was_heard.get_future().wait();
+  EXPECT_EQ(news, 0) << "nobody is told when it answers at last";
+}
+
 TEST_F(FileLooksTest, EndWhileFilesAreStillWanted) {
   for (int n = 0; n < 20; ++n) {
-    FileLooks looks({}, [] {});
+    FileLooks looks(look_in({}), [] {});
     looks.want(files_);
   }
 }

@@ -234,6 +234,7 @@ TEST_F(ThumbnailTest, FileManagersFindWhatTheyLookForInIt) {
 TEST_F(ThumbnailTest, NobodyElseMayLookIntoPictures) {
   const fs::path file = pictured("p.vdb", 40);
   EXPECT_EQ(fs::status(places().saved).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(fs::status(places().saved.parent_path()).permissions(), fs::perms::owner_all);
   EXPECT_EQ(fs::status(saved_picture(file)).permissions(),
             fs::perms::owner_read | fs::perms::owner_write);
 }

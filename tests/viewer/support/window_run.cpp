@@ -3,6 +3,9 @@
 
 #include <fstream>
 
+#include "argil/engine/clay.h"
+#include "argil/io/session.h"
+
 #include "support/built.h"
 
 namespace argil::test {
@@ -75,6 +78,16 @@ viewer::Camera WindowTest::first_camera(const Box3& bounds_mm) {
   camera.look_from(normalized(Vec3{0.35, -1.0, 0.45}), {0.0, 0.0, 1.0});
   camera.frame(bounds_mm);
   return camera;
+}
+
+void leave_a_stroke(const std::filesystem::path& project) {
+  auto session = io::Session::create(project, Clay::ball(25.0, {}).value());
+  ASSERT_TRUE(session.ok());
+  Stroke stroke;
+  stroke.samples = {{0.0, {25.0, 0.0, 0.0}, {}, 1.0}};
+  ASSERT_TRUE(session.value().clay().apply(stroke).ok());
+  session.value().record(stroke);
+  ASSERT_TRUE(session.value().flush().ok());
 }
 
 std::string name_file(const std::filesystem::path& file) {

@@ -59,6 +59,9 @@ class WindowTest : public testing::Test {
 /// A file in the quotes of a shell; for names without any.
 std::string shell_word(const std::filesystem::path& file);
 
+/// A project, a ball, with a stroke that only its journal has: what a killed window leaves.
+void leave_a_stroke(const std::filesystem::path& project);
+
 /// The lines of a script that name a file in an open dialog.
 std::string name_file(const std::filesystem::path& file);
 

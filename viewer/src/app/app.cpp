@@ -75,7 +75,9 @@ App::App(ViewOptions options, fs::path home, std::unique_ptr<Window> window,
       gui_(*window_),
       // A script clicks what the window draws.
       files_(options_.input.empty()),
-      looks_(picture_places(home_, !options_.home.empty()), [] { Window::wake(); }),
+      looks_([places = picture_places(home_, !options_.home.empty())](
+                 const std::filesystem::path& file) { return look_at_file(places, file); },
+             [] { Window::wake(); }),
       gestures_(ui_, document_, [this](const Camera::Pixel& pixel) { return probe(pixel); }),
       script_(std::make_move_iterator(script.begin()), std::make_move_iterator(script.end())),
       has_script_(!script_.empty()) {

@@ -126,6 +126,9 @@ bool pie_takes(const InputEvent& event, bool has_keyboard, UiState& ui, Document
     case InputEvent::Kind::key_up:
       if (event.key != ui.pie.held_key || event.key == 0) return false;
       return release_pie(ui, document);
+    case InputEvent::Kind::away:
+      if (ui.pie.held_key != 0) ui.pie = {};  // whose key goes up then, but chooses nothing
+      return false;
     default:
       return false;
   }

@@ -121,7 +121,9 @@ class GlRenderer final : public Renderer {
         count_(std::move(count)),
         passes_(std::move(passes)),
         has_coarse_(options.has_coarse),
-        targets_(*count_, options.samples) {
+        shrinks_(options.has_coarse && options.samples == 0),
+        targets_(*count_, options.samples),
+        small_(*count_, 0) {
     assert(options.samples >= 0);
   }
 
@@ -176,14 +178,17 @@ class GlRenderer final : public Renderer {
 
  private:
   void touch(PieceKey piece, const GlBlocks& blocks, const BlockId& id);
+  GlTargets& layer_of(const Picture& picture) noexcept {
+    return picture.is_moving && shrinks_ ? small_ : targets_;
+  }
   std::vector<PieceView> views_of(const Picture& picture, const EyeView& eye, const ClipPlane& cut,
                                   bool is_active) const;
   Result<void> draw_pieces(const Picture& picture, const EyeView& eye, const PixelRect& area,
-                           const ClipPlane& cut);
+                           const ClipPlane& cut, GlTargets& to);
   Result<void> draw_picture(const Picture& picture, int width, int height);
-  Result<void> draw_clay(const Picture& picture);
-  Result<void> draw_area(const Picture& picture, const EyeView& eye, const PixelRect& area);
-  Result<void> draw_overlay(const Picture& picture, const EyeView& eye);
+  Result<void> draw_clay(const Picture& picture, GlTargets& to);
+  Result<void> draw_area(const Picture& picture, const EyeView& eye, const PixelRect& area,
+                         GlTargets& to);
 
   std::unique_ptr<GlDebug> debug_;
   std::unique_ptr<ObjectCount> count_;  ///< before all that it counts
@@ -191,11 +196,12 @@ class GlRenderer final : public Renderer {
   std::map<std::uintptr_t, GlTexture> images_;  ///< for panels
   std::map<PieceKey, GlBlocks> pieces_;
   bool has_coarse_;
+  bool shrinks_;  ///< clay that moves, which then fills a quarter of the pixels
   GlTargets targets_;
+  GlTargets small_;  ///< of half the width and height, for the layer of clay that moves
   std::optional<Picture> drawn_;  ///< what the targets hold; none: not the blocks as they are now
   std::optional<Picture> drawn_clay_;  ///< what the clay's layer holds, up to what was touched
   Touched touched_;
-  std::vector<EyeView> drawn_eyes_;  ///< of the last picture
   std::int64_t drawn_pictures_ = 0;
   std::int64_t whole_pictures_ = 0;
   std::int64_t drawn_triangles_ = 0;
@@ -213,7 +219,6 @@ Result<void> GlRenderer::draw(const Picture& picture, unsigned framebuffer, int 
   } else {
     drawn_.reset();
     drawn_clay_.reset();
-    drawn_eyes_.clear();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glClear(GL_COLOR_BUFFER_BIT);
   }
@@ -244,13 +249,16 @@ std::vector<PieceView> GlRenderer::views_of(const Picture& picture, const EyeVie
 Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   const bool is_resized = width != targets_.width() || height != targets_.height();
   if (auto made = targets_.resize(width, height); !made) return made;
-  if (is_resized || !drawn_clay_ || !have_same_clay(*drawn_clay_, picture)) touched_.add_all();
-  drawn_eyes_ = eyes_of(picture, width, height);
-  if (!touched_.empty()) {
-    if (auto drawn = draw_clay(picture); !drawn) return drawn;
+  GlTargets& clay = layer_of(picture);
+  if (&clay == &small_) {
+    if (auto made = small_.resize((width + 1) / 2, (height + 1) / 2); !made) return made;
   }
-  targets_.begin_picture();
-  for (const EyeView& eye : drawn_eyes_) {
+  if (is_resized || !drawn_clay_ || !have_same_clay(*drawn_clay_, picture)) touched_.add_all();
+  if (!touched_.empty()) {
+    if (auto drawn = draw_clay(picture, clay); !drawn) return drawn;
+  }
+  targets_.begin_picture(clay);
+  for (const EyeView& eye : eyes_of(picture, width, height)) {
     glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
     passes_.references.draw(picture.references, true, eye);
     passes_.marks.draw(picture, eye, targets_);
@@ -261,7 +269,7 @@ Result<void> GlRenderer::draw_picture(const Picture& picture, int width, int hei
 }
 
 /// Draws what was touched. Uploads the slice's values where they are new.
-Result<void> GlRenderer::draw_clay(const Picture& picture) {
+Result<void> GlRenderer::draw_clay(const Picture& picture, GlTargets& to) {
   if (is_drawable(picture.slice) && !(drawn_clay_ && drawn_clay_->slice == picture.slice)) {
     passes_.slice.take(*count_, *picture.slice);
   }
@@ -269,12 +277,12 @@ Result<void> GlRenderer::draw_clay(const Picture& picture) {
   passes_.references.take(*count_, picture.references);
   drawn_triangles_ = 0;
   bool is_whole = true;
-  for (const EyeView& eye : drawn_eyes_) {
+  for (const EyeView& eye : eyes_of(picture, to.width(), to.height())) {
     std::vector<PieceView> seen = views_of(picture, eye, {}, true);
     for (PieceView& other : views_of(picture, eye, {}, false)) seen.push_back(std::move(other));
     for (const PixelRect& area : touched_.areas_in(eye, seen)) {
       is_whole = is_whole && area == eye.part;
-      if (auto drawn = draw_area(picture, eye, area); !drawn) return drawn;
+      if (auto drawn = draw_area(picture, eye, area, to); !drawn) return drawn;
     }
   }
   if (is_whole) ++whole_pictures_;
@@ -288,8 +296,8 @@ bool GlRenderer::holds(const Picture& picture, int width, int height) const {
 }
 
 Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
-                                   const PixelRect& area) {
-  targets_.bind_clay();
+                                   const PixelRect& area, GlTargets& to) {
+  to.bind_clay();
   glViewport(eye.part.x, eye.part.y, eye.part.width, eye.part.height);
   glEnable(GL_SCISSOR_TEST);
   glScissor(area.x, area.y, area.width, area.height);
@@ -310,20 +318,22 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
 
   const bool has_slice = is_drawable(picture.slice);
   const ClipPlane cut = has_slice ? ClipPlane(cut_by(*picture.slice, eye.lens)) : std::nullopt;
-  if (auto drawn = draw_pieces(picture, eye, area, cut); !drawn) {
+  if (auto drawn = draw_pieces(picture, eye, area, cut, to); !drawn) {
     glDisable(GL_SCISSOR_TEST);
     return drawn;
   }
   // Kept before the slice is drawn: strokes and occlusion are about the clay alone.
-  targets_.keep_depth(area);
+  to.keep_depth(area);
   glBindVertexArray(passes_.nothing.name());
   if (has_overlay(picture)) {
     // It is drawn at another size, and only of all that an eye sees.
     glDisable(GL_SCISSOR_TEST);
-    if (auto drawn = draw_overlay(picture, eye); !drawn) return drawn;
+    const auto overlay =
+        picture.shading == Shading::curvature ? Overlay::curvature : Overlay::occlusion;
+    if (auto drawn = passes_.overlay.draw(*count_, overlay, to, eye); !drawn) return drawn;
     glEnable(GL_SCISSOR_TEST);
   }
-  targets_.bind_clay();
+  to.bind_clay();
   if (has_slice) passes_.slice.draw(*picture.slice, eye);
   glDisable(GL_SCISSOR_TEST);
   return {};
@@ -331,7 +341,7 @@ Result<void> GlRenderer::draw_area(const Picture& picture, const EyeView& eye,
 
 /// The active piece first, so that its depth alone can be kept where there are others.
 Result<void> GlRenderer::draw_pieces(const Picture& picture, const EyeView& eye,
-                                     const PixelRect& area, const ClipPlane& cut) {
+                                     const PixelRect& area, const ClipPlane& cut, GlTargets& to) {
   const auto draw = [&](const std::vector<PieceView>& views, bool is_behind) {
     for (const PieceView& view : views) {
       // A cut shows the inside, which looks away.
@@ -344,27 +354,24 @@ Result<void> GlRenderer::draw_pieces(const Picture& picture, const EyeView& eye,
   draw(views_of(picture, eye, cut, true), false);
   const std::vector<PieceView> others = views_of(picture, eye, cut, false);
   if (others.empty()) return {};
-  if (auto kept = targets_.keep_active_depth(area); !kept) return kept;
-  targets_.bind_clay();
+  if (auto kept = to.keep_active_depth(area); !kept) return kept;
+  to.bind_clay();
   draw(others, true);
   return {};
 }
 
-Result<void> GlRenderer::draw_overlay(const Picture& picture, const EyeView& eye) {
-  const bool is_curvature = picture.shading == Shading::curvature;
-  return passes_.overlay.draw(*count_, is_curvature ? Overlay::curvature : Overlay::occlusion,
-                              targets_, eye);
-}
-
 DepthMap GlRenderer::read_depth(std::size_t eye) {
   DepthMap map;
-  if (eye >= drawn_eyes_.size()) return map;
-  const EyeView& drawn = drawn_eyes_[eye];
+  if (!drawn_clay_) return map;
+  const GlTargets& layer = layer_of(*drawn_clay_);
+  const std::vector<EyeView> eyes = eyes_of(*drawn_clay_, layer.width(), layer.height());
+  if (eye >= eyes.size()) return map;
+  const EyeView& drawn = eyes[eye];
   map.width = drawn.part.width;
   map.height = drawn.part.height;
-  map.depth_mm = targets_.read_depth(drawn.part);
-  if (drawn_clay_ && !views_of(*drawn_clay_, drawn, {}, false).empty()) {
-    const std::vector<float> active = targets_.read_active_depth(drawn.part);
+  map.depth_mm = layer.read_depth(drawn.part);
+  if (!views_of(*drawn_clay_, drawn, {}, false).empty()) {
+    const std::vector<float> active = layer.read_active_depth(drawn.part);
     map.is_other.reserve(active.size());
     for (std::size_t n = 0; n < active.size(); ++n) {
       map.is_other.push_back(map.depth_mm[n] < active[n] ? 1 : 0);

@@ -14,8 +14,10 @@ namespace argil::viewer {
 Result<std::unique_ptr<Renderer>> make_gl_renderer();
 
 struct GlRendererOptions {
-  int samples = 0;          ///< a pixel; 0: no multisampling
-  bool has_coarse = false;  ///< Picture::is_moving is drawn with about a third of the triangles
+  int samples = 0;  ///< a pixel; 0: no multisampling
+  /// Picture::is_moving is drawn with about a third of the triangles, and without multisampling
+  /// also with a quarter of the pixels.
+  bool has_coarse = false;
 };
 
 /// As make_gl_renderer, which chooses by the card. Tests draw also as it would not.

@@ -102,8 +102,19 @@ Result<void> GlTargets::make_kept(int width, int height) {
 
 void GlTargets::bind_clay() const { glBindFramebuffer(GL_FRAMEBUFFER, clay_.name()); }
 
-void GlTargets::begin_picture() const {
-  copy_color(clay_, picture_.name());
+void GlTargets::begin_picture(const GlTargets& clay) const {
+  const bool is_stretched = &clay != this;
+  assert(!is_stretched || (samples_ == 0 && clay.samples_ == 0));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, clay.clay_.name());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, picture_.name());
+  const auto copy = [&](GLbitfield what, GLenum filter) {
+    glBlitFramebuffer(0, 0, clay.width_, clay.height_, 0, 0, width_, height_, what, filter);
+  };
+  copy(GL_COLOR_BUFFER_BIT, is_stretched ? GL_LINEAR : GL_NEAREST);
+  if (is_stretched) {
+    copy(GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    keep_depth({0, 0, width_, height_});  // pins ask for it
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, picture_.name());
 }
 

@@ -38,8 +38,10 @@ class GlTargets {
   /// Draws go into the clay's layer from now on.
   void bind_clay() const;
   /// The picture becomes a copy of the clay's colours, and draws go into it; its depth is the
-  /// clay's, which they must leave as it is.
-  void begin_picture() const;
+  /// clay's, which they must leave as it is. The clay may be another's, of another size: it is
+  /// stretched, and its depth takes the place of this one's. Both then without multisampling
+  /// (assert).
+  void begin_picture(const GlTargets& clay) const;
   /// Copies the depth of a part of the clay's layer into the texture.
   void keep_depth(const PixelRect& part) const;
   unsigned kept_depth() const noexcept { return depth_texture_.name(); }

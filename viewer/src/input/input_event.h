@@ -74,6 +74,7 @@ struct InputEvent {
     key_up,
     text,
     drop,
+    away,  ///< another window has the keyboard from now on; keys that are down are let go next
     close
   };
   Kind kind = Kind::move;

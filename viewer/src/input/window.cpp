@@ -185,6 +185,9 @@ void Window::listen() {
     Window& me = self(window);
     me.push(InputEvent::Kind::drop, 0).files.assign(files, files + count);
   });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int has_focus) {
+    if (has_focus == GLFW_FALSE) self(window).push(InputEvent::Kind::away, 0);
+  });
   glfwSetWindowRefreshCallback(window_,
                                [](GLFWwindow* window) { self(window).is_exposed_ = true; });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) {
@@ -315,6 +318,9 @@ void Window::play(const InputEvent& event) {
       callback_of(glfwSetDropCallback)(window_, static_cast<int>(files.size()), files.data());
       break;
     }
+    case InputEvent::Kind::away:
+      callback_of(glfwSetWindowFocusCallback)(window_, GLFW_FALSE);
+      break;
     case InputEvent::Kind::close:
       callback_of(glfwSetWindowCloseCallback)(window_);
       break;

@@ -145,7 +145,7 @@ struct Picture {
 };
 
 /// Depth of every pixel of the last picture, in mm along the view from the eye's plane; infinite
-/// where there is no clay. Rows from the top.
+/// where there is no clay. Rows from the top. One that moves may have been drawn in fewer pixels.
 struct DepthMap {
   int width = 0;
   int height = 0;

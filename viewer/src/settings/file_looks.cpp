@@ -2,6 +2,7 @@
 #include "settings/file_looks.h"
 
 #include <cassert>
+#include <chrono>
 #include <iterator>
 #include <new>
 #include <system_error>
@@ -9,77 +10,90 @@
 
 namespace argil::viewer {
 
-FileLooks::FileLooks(PicturePlaces places, std::function<void()> on_news)
-    : places_(std::move(places)), on_news_(std::move(on_news)) {
-  assert(on_news_);
+FileLooks::FileLooks(std::function<FileLook(const std::filesystem::path&)> look,
+                     std::function<void()> on_news)
+    : shared_(std::make_shared<Shared>()) {
+  assert(look && on_news);
+  shared_->look = std::move(look);
+  shared_->on_news = std::move(on_news);
 }
 
 FileLooks::~FileLooks() {
+  constexpr std::chrono::seconds kPatience{1};
+  if (!thread_.joinable()) return;
+  bool has_ended = false;
   {
-    const std::lock_guard lock(mutex_);
-    is_ending_ = true;
+    std::unique_lock lock(shared_->mutex);
+    shared_->is_ending = true;
+    shared_->wake.notify_all();
+    has_ended = shared_->ended.wait_for(lock, kPatience, [this] { return shared_->has_ended; });
   }
-  wake_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  if (has_ended) {
+    thread_.join();
+  } else {
+    thread_.detach();
+  }
 }
 
 void FileLooks::want(std::vector<std::filesystem::path> files) {
   {
-    const std::lock_guard lock(mutex_);
-    wanted_.assign(std::make_move_iterator(files.begin()), std::make_move_iterator(files.end()));
-    looks_.clear();
-    has_news_ = false;
-    ++list_;
-    if (wanted_.empty()) return;
+    const std::lock_guard lock(shared_->mutex);
+    shared_->wanted.assign(std::make_move_iterator(files.begin()),
+                           std::make_move_iterator(files.end()));
+    shared_->looks.clear();
+    shared_->has_news = false;
+    ++shared_->list;
+    if (shared_->wanted.empty()) return;
   }
-  wake_.notify_all();
+  shared_->wake.notify_all();
   if (thread_.joinable()) return;
   try {
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([shared = shared_] { run(*shared); });
   } catch (const std::system_error&) {
     // Without a thread the list has names alone, which are enough to choose by.
-    const std::lock_guard lock(mutex_);
-    wanted_.clear();
+    const std::lock_guard lock(shared_->mutex);
+    shared_->wanted.clear();
   }
 }
 
 std::vector<FileLook> FileLooks::take() {
-  const std::lock_guard lock(mutex_);
-  has_news_ = false;
-  return std::exchange(looks_, {});
+  const std::lock_guard lock(shared_->mutex);
+  shared_->has_news = false;
+  return std::exchange(shared_->looks, {});
 }
 
 bool FileLooks::is_idle() const {
-  const std::lock_guard lock(mutex_);
-  return wanted_.empty() && looks_.empty() && !is_looking_;
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->wanted.empty() && shared_->looks.empty() && !shared_->is_looking;
 }
 
-void FileLooks::run() {
-  std::unique_lock lock(mutex_);
+void FileLooks::run(Shared& shared) {
+  std::unique_lock lock(shared.mutex);
   for (;;) {
-    wake_.wait(lock, [this] { return is_ending_ || !wanted_.empty(); });
-    if (is_ending_) return;
-    const std::filesystem::path file = std::move(wanted_.front());
-    wanted_.pop_front();
-    is_looking_ = true;
-    const std::size_t list = list_;
+    shared.wake.wait(lock, [&] { return shared.is_ending || !shared.wanted.empty(); });
+    if (shared.is_ending) break;
+    const std::filesystem::path file = std::move(shared.wanted.front());
+    shared.wanted.pop_front();
+    shared.is_looking = true;
+    const std::size_t list = shared.list;
     lock.unlock();
     FileLook look;
     try {
-      look = look_at_file(places_, file);
+      look = shared.look(file);
     } catch (const std::bad_alloc&) {
       look = {};  // it stands there by its name
     }
     lock.lock();
-    if (list == list_ && !look.file.empty()) {
-      looks_.push_back(std::move(look));
-      has_news_ = true;
-      lock.unlock();
-      on_news_();
-      lock.lock();
+    shared.is_looking = false;
+    if (shared.is_ending) break;
+    if (list == shared.list && !look.file.empty()) {
+      shared.looks.push_back(std::move(look));
+      shared.has_news = true;
+      shared.on_news();  // under the lock: where this is gone, so is what it would call
     }
-    is_looking_ = false;
   }
+  shared.has_ended = true;
+  shared.ended.notify_all();
 }
 
 }  // namespace argil::viewer

@@ -7,6 +7,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -15,15 +16,18 @@
 
 namespace argil::viewer {
 
-/// Looks at the files of a list (look_at_file) on a thread of its own, which there is only from the
+/// Looks at the files of a list on a thread of its own, which there is only from the
 /// first list on: nobody waits for a disk.
 ///
 /// Threads  want, take, is_idle: the window's. The destructor waits for the file that is being
-///          looked at.
+///          looked at, but not for a disk that does not answer, as one of a network may: after a
+///          second that thread is left to itself, and calls nothing but `look` any more.
 class FileLooks {
  public:
-  /// `on_news` is called on the other thread when there is something to take.
-  FileLooks(PicturePlaces places, std::function<void()> on_news);
+  /// Both are called on the other thread: `look` for each file (look_at_file), which may throw
+  /// bad_alloc, and `on_news` when there is something to take. That must not call this.
+  FileLooks(std::function<FileLook(const std::filesystem::path&)> look,
+            std::function<void()> on_news);
   ~FileLooks();
   FileLooks(const FileLooks&) = delete;
   FileLooks& operator=(const FileLooks&) = delete;
@@ -33,23 +37,29 @@ class FileLooks {
   void want(std::vector<std::filesystem::path> files);
   /// What has come since the last call.
   std::vector<FileLook> take();
-  bool has_news() const noexcept { return has_news_; }
+  bool has_news() const noexcept { return shared_->has_news; }
   /// Everything that was wanted has come and was taken.
   bool is_idle() const;
 
  private:
-  void run();
+  /// What the thread sees, and keeps while this is gone already.
+  struct Shared {
+    std::function<FileLook(const std::filesystem::path&)> look;
+    std::function<void()> on_news;
+    std::mutex mutex;
+    std::condition_variable wake;   ///< for the thread
+    std::condition_variable ended;  ///< for the destructor
+    std::deque<std::filesystem::path> wanted;
+    std::vector<FileLook> looks;
+    std::atomic<bool> has_news{false};
+    std::size_t list = 0;  ///< which one is wanted
+    bool is_looking = false;
+    bool is_ending = false;
+    bool has_ended = false;
+  };
+  static void run(Shared& shared);
 
-  PicturePlaces places_;
-  std::function<void()> on_news_;
-  mutable std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<std::filesystem::path> wanted_;
-  std::vector<FileLook> looks_;
-  std::atomic<bool> has_news_{false};
-  std::size_t list_ = 0;  ///< which one is wanted
-  bool is_looking_ = false;
-  bool is_ending_ = false;
+  std::shared_ptr<Shared> shared_;
   std::thread thread_;
 };
 

@@ -79,11 +79,11 @@ std::shared_ptr<const ReferencePixels> shared_pixels(io::ClearImage&& image) {
   return with_smaller(image.width, image.height, std::move(image.rgba), Pace(never_stops, "read"));
 }
 
-/// For nobody but the user, who alone may look into the folder.
+/// For nobody but the user, who alone may look into the folder and those that it needed.
 Result<void> make_private_folder(const fs::path& folder) {
   std::error_code error;
-  if (fs::is_directory(folder, error)) return {};
-  fs::create_directories(folder.parent_path(), error);
+  if (folder.empty() || fs::is_directory(folder, error)) return {};
+  if (auto made = make_private_folder(folder.parent_path()); !made) return made;
   const bool is_new = fs::create_directory(folder, error);
   if (is_new) fs::permissions(folder, fs::perms::owner_all, error);
   if (!error) return {};
