@@ -214,8 +214,8 @@ void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kLargestBlock = 32 << 20;  // the most that glibc takes
   constexpr int kKept = 64 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestBlock);
-  mallopt(M_TRIM_THRESHOLD, kKept);
+  mallopt(M_MMAP_THRESHOLD, kLargestBlock);  // NOLINT(concurrency-mt-unsafe): no thread runs yet
+  mallopt(M_TRIM_THRESHOLD, kKept);          // NOLINT(concurrency-mt-unsafe): the same
 #endif
 }
 

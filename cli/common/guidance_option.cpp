@@ -34,14 +34,21 @@ void read_kind(const std::string& text, std::size_t& kind) {
 }
 
 /// A number that had another name before.
-void add_renamed(CLI::App& command, const std::string& name, const std::string& former,
-                 GuidanceChoice& choice, double GuidanceChoice::*target, const Range& range,
-                 const std::string& help) {
-  const auto read = [name, &choice, target, range](const std::string& text) {
-    choice.*target = parse_number(name, text, range);
-    choice.tuned_by = name;
+struct RenamedNumber {
+  std::string name;
+  std::string former;
+  std::string help;
+  double GuidanceChoice::*target = nullptr;
+  Range range;
+};
+
+void add_renamed(CLI::App& command, const RenamedNumber& number, GuidanceChoice& choice) {
+  const auto read = [number, &choice](const std::string& text) {
+    choice.*number.target = parse_number(number.name, text, number.range);
+    choice.tuned_by = number.name;
   };
-  command.add_option_function<std::string>(name + "," + former, read, help)->type_name("NUMBER");
+  command.add_option_function<std::string>(number.name + "," + number.former, read, number.help)
+      ->type_name("NUMBER");
 }
 
 }  // namespace
@@ -57,11 +64,20 @@ void add_guidance_options(CLI::App& command, GuidanceChoice& choice) {
       ->type_name("none|direct|indirect|hybrid");
   add_file(command, "--path", choice.path, {".csv", ".txt", ".xyz", ".jsonl"},
            "that path: lines of x y z in mm, or the first stroke of a script (.jsonl)");
-  add_renamed(command, "--guide-stiffness", "--guidance-stiffness", choice,
-              &GuidanceChoice::stiffness_n_per_m, {0.0, kMostGuideNPerM, true},
-              "of the guidance in N/m; default 60");
-  add_renamed(command, "--guide-force", "--guidance-force", choice, &GuidanceChoice::most_force_n,
-              {0.0, kMostGuideN, true}, "its most, in N; default 1.5");
+  add_renamed(command,
+              {"--guide-stiffness",
+               "--guidance-stiffness",
+               "of the guidance in N/m; default 60",
+               &GuidanceChoice::stiffness_n_per_m,
+               {0.0, kMostGuideNPerM, true}},
+              choice);
+  add_renamed(command,
+              {"--guide-force",
+               "--guidance-force",
+               "its most, in N; default 1.5",
+               &GuidanceChoice::most_force_n,
+               {0.0, kMostGuideN, true}},
+              choice);
 }
 
 void check_guide(const GuidanceChoice& choice, bool can_draw) {

@@ -155,29 +155,39 @@ std::vector<std::string> trial_conditions(TrialTask task) {
   return {"none", "direct", "indirect", "hybrid"};
 }
 
+namespace {
+
+/// Those of one task under one condition, by each hand and repeat, behind the others.
+void add_trials(const TrialOptions& options, std::size_t task, const std::string& condition,
+                std::vector<Trial>& trials) {
+  const auto seed = static_cast<std::uint64_t>(options.seed);
+  const std::size_t hands = options.is_falcon || options.has_hand ? 1 : kHands.size();
+  for (std::size_t hand = 0; hand < hands; ++hand) {
+    for (int repeat = 1; repeat <= options.repeats; ++repeat) {
+      Trial trial{static_cast<TrialTask>(task), condition, hand, repeat, 0};
+      if (options.has_hand) trial.hand = options.hand;
+      // One condition is held against another in the same place, by a hand that strays alike.
+      // Nothing else is the same, so that there are as many places as there are such pairs.
+      trial.place = mixed(mixed(mixed(seed) + 1000U * task + trial.hand) +
+                          static_cast<std::uint64_t>(repeat));
+      trials.push_back(std::move(trial));
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<Trial> trials_of(const TrialOptions& options) {
   assert(options.repeats >= 1 && options.hand < kHands.size());
   std::vector<Trial> trials;
-  const auto seed = static_cast<std::uint64_t>(options.seed);
-  const std::size_t hands = options.is_falcon || options.has_hand ? 1 : kHands.size();
   for (std::size_t task = 0; task < kTrialTasks.size(); ++task) {
     if (options.task != 0 && options.task != task + 1) continue;
     for (const std::string& condition : trial_conditions(static_cast<TrialTask>(task))) {
-      for (std::size_t hand = 0; hand < hands; ++hand) {
-        for (int repeat = 1; repeat <= options.repeats; ++repeat) {
-          Trial trial{static_cast<TrialTask>(task), condition, hand, repeat, 0};
-          if (options.has_hand) trial.hand = options.hand;
-          // One condition is held against another in the same place, by a hand that strays alike.
-          // Nothing else is the same, so that there are as many places as there are such pairs.
-          trial.place = mixed(mixed(mixed(seed) + 1000U * task + trial.hand) +
-                              static_cast<std::uint64_t>(repeat));
-          trials.push_back(std::move(trial));
-        }
-      }
+      add_trials(options, task, condition, trials);
     }
   }
   // R. Durstenfeld's shuffle, since std::shuffle may differ from library to library.
-  std::uint64_t random = seed;
+  auto random = static_cast<std::uint64_t>(options.seed);
   for (std::size_t n = trials.size(); n > 1; --n) {
     random = mixed(random);
     std::swap(trials[n - 1], trials[static_cast<std::size_t>(random % n)]);

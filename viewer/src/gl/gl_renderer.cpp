@@ -442,8 +442,9 @@ std::string text_of(GLenum name) {
 void keep_frame_memory() {
 #ifdef __GLIBC__
   constexpr int kMostKept = 256 << 20;
-  mallopt(M_TRIM_THRESHOLD, kMostKept);
-  mallopt(M_MMAP_THRESHOLD, kMostKept / 4);
+  // glibc's takes the lock of the heap; unsafe is only what reads these without it, as nobody does.
+  mallopt(M_TRIM_THRESHOLD, kMostKept);      // NOLINT(concurrency-mt-unsafe)
+  mallopt(M_MMAP_THRESHOLD, kMostKept / 4);  // NOLINT(concurrency-mt-unsafe)
 #endif
 }
 
