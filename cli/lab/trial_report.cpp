@@ -263,6 +263,25 @@ std::string trial_csv(const TrialOptions& options, const std::vector<TrialResult
   return text.str();
 }
 
+namespace {
+
+/// Of a task under a condition, by one hand, by "all" of them or by a "person".
+std::vector<const TrialResult*> results_of(const TrialOptions& options,
+                                           const std::vector<TrialResult>& results,
+                                           std::string_view task, std::string_view condition,
+                                           const std::string& hand) {
+  std::vector<const TrialResult*> group;
+  for (const TrialResult& result : results) {
+    const bool is_in = task == trial_task_name(result.trial.task) &&
+                       result.trial.condition == condition &&
+                       (hand == "all" || hand == hand_of(options, result.trial));
+    if (is_in) group.push_back(&result);
+  }
+  return group;
+}
+
+}  // namespace
+
 Json trial_json(const TrialOptions& options, const std::vector<TrialResult>& results) {
   Json json;
   json["seed"] = options.seed;
@@ -275,13 +294,7 @@ Json trial_json(const TrialOptions& options, const std::vector<TrialResult>& res
   for (const char* task : kTrialTasks) {
     for (const char* condition : {"free", "force", "none", "direct", "indirect", "hybrid"}) {
       for (const std::string& hand : hands) {
-        std::vector<const TrialResult*> group;
-        for (const TrialResult& result : results) {
-          const bool is_in = std::string_view(task) == trial_task_name(result.trial.task) &&
-                             result.trial.condition == condition &&
-                             (hand == "all" || hand == hand_of(options, result.trial));
-          if (is_in) group.push_back(&result);
-        }
+        const auto group = results_of(options, results, task, condition, hand);
         if (!group.empty()) json["rows"].push_back(group_json(hand, group));
       }
     }

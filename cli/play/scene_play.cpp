@@ -245,13 +245,14 @@ ScenePlay slide_over_click(const ScenePlayer&, const SceneValues& values) {
 /// To and fro through all of a box that is larger than what the handle reaches: a sine along each
 /// axis, of which none is a multiple of another.
 void sweep_volume(std::vector<HandKey>& plan) {
-  constexpr double kSweepS = 60.0;
+  constexpr int kKeys = 3000;
   constexpr double kKeyS = 0.02;
   constexpr Vec3 kMiddleMm{0.0, 5.0, 0.0};
   constexpr Vec3 kHalfMm{65.0, 85.0, 80.0};
   constexpr Vec3 kHz{0.7, 0.4326, 0.2674};  // each that before it by the golden section
   const double start_s = plan.back().time_s;
-  for (double t = kKeyS; t <= kSweepS; t += kKeyS) {
+  for (int n = 1; n <= kKeys; ++n) {
+    const double t = n * kKeyS;
     HandKey key = plan.back();
     key.time_s = start_s + t;
     for (std::size_t axis = 0; axis < 3; ++axis) {
