@@ -23,7 +23,7 @@
 #include "bench/clock.h"
 #include "bench/memory.h"
 #include "picture/reference_image.h"
-#include "support/jpeg_maker.h"
+#include "support/bytes/jpeg_maker.h"
 
 namespace argil::bench {
 namespace {

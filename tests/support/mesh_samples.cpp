@@ -11,10 +11,10 @@
 #include "argil/io/mesh_file.h"
 
 #include "mesh_format/mesh_read.h"
-#include "support/mesh_bytes.h"
+#include "support/bytes/mesh_bytes.h"
+#include "support/bytes/zip_maker.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
-#include "support/zip_maker.h"
 
 namespace argil::test {
 namespace {

@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "support/alpha_maker.h"
+#include "support/bytes/jpeg_maker.h"
+#include "support/bytes/png_maker.h"
 #include "support/effort.h"
-#include "support/jpeg_maker.h"
-#include "support/png_maker.h"
 #include "support/scratch.h"
 
 namespace argil::io {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/jpeg_maker.h"
+#include "support/bytes/jpeg_maker.h"
 
 namespace argil::io {
 namespace {

@@ -15,8 +15,8 @@
 
 #include "argil/io/png.h"
 
-#include "support/jpeg_maker.h"
-#include "support/png_maker.h"
+#include "support/bytes/jpeg_maker.h"
+#include "support/bytes/png_maker.h"
 #include "support/scratch.h"
 
 namespace argil::io {

@@ -15,8 +15,8 @@
 
 #include "argil/io/image_file.h"
 
+#include "support/bytes/jpeg_maker.h"
 #include "support/effort.h"
-#include "support/jpeg_maker.h"
 #include "support/scratch.h"
 
 namespace argil::io {

@@ -15,7 +15,7 @@
 #include "argil/io/image_file.h"
 #include "argil/io/png.h"
 
-#include "support/png_maker.h"
+#include "support/bytes/png_maker.h"
 #include "support/scratch.h"
 
 namespace argil::io {

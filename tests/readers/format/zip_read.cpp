@@ -13,7 +13,7 @@
 #include <zlib.h>
 
 #include "mesh_format/mesh_read.h"
-#include "support/zip_maker.h"
+#include "support/bytes/zip_maker.h"
 
 namespace argil::io {
 namespace {

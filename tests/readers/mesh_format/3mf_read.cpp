@@ -10,7 +10,7 @@
 #include "argil/io/assembly.h"
 
 #include "mesh_format/mesh_read.h"
-#include "support/zip_maker.h"
+#include "support/bytes/zip_maker.h"
 
 namespace argil::io {
 namespace {

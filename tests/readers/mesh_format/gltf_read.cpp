@@ -11,7 +11,7 @@
 
 #include "argil/io/mesh_file.h"
 
-#include "support/mesh_bytes.h"
+#include "support/bytes/mesh_bytes.h"
 #include "support/scratch.h"
 
 namespace argil::io {

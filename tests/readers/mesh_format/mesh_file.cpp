@@ -15,7 +15,7 @@
 #include "argil/mesh/rounding.h"
 
 #include "mesh_format/mesh_write.h"
-#include "support/mesh_bytes.h"
+#include "support/bytes/mesh_bytes.h"
 #include "support/mesh_samples.h"
 #include "support/models.h"
 #include "support/scratch.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh_format/mesh_read.h"
-#include "support/mesh_bytes.h"
+#include "support/bytes/mesh_bytes.h"
 
 namespace argil::io {
 namespace {

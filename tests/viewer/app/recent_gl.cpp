@@ -143,16 +143,7 @@ TEST_F(ViewRecentGl, TheQuestionAboutLeftWorkShowsIt) {
 /// A double click on "Throw it away..." does not throw anything away.
 TEST_F(ViewRecentGl, TheSecondQuestionHasItsWayBackUnderThePointer) {
   const fs::path unsaved = home() / "unsaved";
-  fs::create_directories(unsaved);
-  {
-    auto session = io::Session::create(unsaved / "Untitled-1.vdb", Clay::ball(10.0, {}).value());
-    ASSERT_TRUE(session.ok());
-    Stroke stroke;
-    stroke.samples = {{0.0, {10.0, 0.0, 0.0}, {}, 1.0}};
-    ASSERT_TRUE(session.value().clay().apply(stroke).ok());
-    session.value().record(stroke);
-    ASSERT_TRUE(session.value().flush().ok());
-  }
+  test::leave_a_stroke(unsaved / "Untitled-1.vdb", 10.0);
   played(
       "frames 3\nsettle\nclick Throw it away...\nframes 3\npress left\nrelease left\nframes 3\n"
       "click Throw it away...\nframes 3\nkey Esc\nframes 3\nclick Not now\nsettle\n"

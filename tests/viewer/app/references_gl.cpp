@@ -13,7 +13,7 @@
 #include "argil/io/project_file.h"
 
 #include "settings/reference_list.h"
-#include "support/jpeg_maker.h"
+#include "support/bytes/jpeg_maker.h"
 #include "support/scratch.h"
 #include "viewer/support/picture_alike.h"
 #include "viewer/support/window_run.h"

@@ -352,7 +352,7 @@ TEST_F(ViewWindowGl, AnErrorStaysUntilItIsDismissedAndIsKeptInTheList) {
 
 TEST_F(ViewWindowGl, WhatAKilledWindowLeftCanBeLeftForLater) {
   const auto project = folder_ / "p.vdb";
-  ASSERT_NO_FATAL_FAILURE(test::leave_a_stroke(project));
+  test::leave_a_stroke(project);
   for (const char* const word : {"click Not now\n", "key Esc\n"}) {
     // A new ball, and the project as it was.
     const WindowRun run =
@@ -396,25 +396,12 @@ TEST_F(ViewWindowGl, AKilledWindowLosesNoStrokeAndAsks) {
 
 TEST_F(ViewWindowGl, WhatIsNotRecoveredIsKeptBesideTheProject) {
   const auto project = folder_ / "p.vdb";
-  ASSERT_NO_FATAL_FAILURE(test::leave_a_stroke(project));
+  test::leave_a_stroke(project);
   const WindowRun run = play("settle\nclick Open as it was saved\nsettle\nkey Ctrl+Q\nframes 3\n",
                              shell_word(project));
   EXPECT_EQ(run.status, 0) << run.words;
   EXPECT_EQ(io::open_project(project).value().sculpture.hash(), first_clay().hash());
   EXPECT_TRUE(std::filesystem::exists(folder_ / "p.journal.jsonl.left-1"));
-}
-
-/// A project without a name, with a stroke that only its journal has; what it is with that stroke.
-std::uint64_t leave_untitled(const std::filesystem::path& file, double radius_mm) {
-  std::filesystem::create_directories(file.parent_path());
-  auto session = io::Session::create(file, Clay::ball(radius_mm, {}).value());
-  EXPECT_TRUE(session.ok());
-  Stroke stroke;
-  stroke.samples = {{0.0, {radius_mm, 0.0, 0.0}, {}, 1.0}};
-  EXPECT_TRUE(session.value().clay().apply(stroke).ok());
-  session.value().record(stroke);
-  EXPECT_TRUE(session.value().flush().ok());
-  return session.value().clay().hash();
 }
 
 TEST_F(ViewWindowGl, ANameIsTypedAtOnceAndNothingWithoutANameStaysBehind) {
@@ -434,8 +421,8 @@ TEST_F(ViewWindowGl, ANameIsTypedAtOnceAndNothingWithoutANameStaysBehind) {
 
 TEST_F(ViewWindowGl, EveryProjectThatWasLeftWithoutANameIsOffered) {
   const auto unsaved = home() / "unsaved";
-  leave_untitled(unsaved / "Untitled-1.vdb", 10.0);
-  const std::uint64_t second = leave_untitled(unsaved / "Untitled-2.vdb", 12.0);
+  test::leave_a_stroke(unsaved / "Untitled-1.vdb", 10.0);
+  const std::uint64_t second = test::leave_a_stroke(unsaved / "Untitled-2.vdb", 12.0);
   // Both of the same minute, by the name in the list; the first is the newer one.
   const auto journal = unsaved / "Untitled-2.journal.jsonl";
   const auto minute = std::filesystem::last_write_time(journal);
@@ -459,14 +446,14 @@ TEST_F(ViewWindowGl, EveryProjectThatWasLeftWithoutANameIsOffered) {
     EXPECT_EQ(io::load_project(named).value().hash(), second);
     EXPECT_FALSE(std::filesystem::exists(unsaved / "Untitled-2.vdb"));
     EXPECT_TRUE(std::filesystem::exists(unsaved / "Untitled-1.vdb"));
-    leave_untitled(unsaved / "Untitled-2.vdb", 12.0);
+    test::leave_a_stroke(unsaved / "Untitled-2.vdb", 12.0);
     std::filesystem::last_write_time(journal, minute);
   }
 }
 
 TEST_F(ViewWindowGl, WhatWasLeftWithoutANameIsThrownAwayAfterASecondQuestion) {
   const auto file = home() / "unsaved/Untitled-1.vdb";
-  leave_untitled(file, 10.0);
+  test::leave_a_stroke(file, 10.0);
   const WindowRun kept = play(
       "settle\nclick Throw it away...\nframes 3\nkey Esc\nframes 3\n"
       "click Throw it away...\nframes 3\nclick Keep it\nframes 3\nclick Not now\nsettle\n"
@@ -482,7 +469,7 @@ TEST_F(ViewWindowGl, WhatWasLeftWithoutANameIsThrownAwayAfterASecondQuestion) {
 
 TEST_F(ViewWindowGl, WhatIsAskedAboutNoMoreIsAskedAboutWhenItWasWorkedOnSince) {
   const auto file = home() / "unsaved/Untitled-1.vdb";
-  leave_untitled(file, 10.0);
+  test::leave_a_stroke(file, 10.0);
   const std::string ends = "key Ctrl+Q\nframes 3\n";
   const WindowRun first = play("settle\nclick Ask no more\nsettle\n" + ends);
   EXPECT_EQ(first.status, 0) << first.words;

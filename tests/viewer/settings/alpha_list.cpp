@@ -15,7 +15,7 @@
 
 #include "argil/io/alpha_file.h"
 
-#include "support/jpeg_maker.h"
+#include "support/bytes/jpeg_maker.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {

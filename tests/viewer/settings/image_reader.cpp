@@ -16,7 +16,7 @@
 
 #include "argil/io/png.h"
 
-#include "support/jpeg_maker.h"
+#include "support/bytes/jpeg_maker.h"
 #include "support/scratch.h"
 
 namespace argil::viewer {

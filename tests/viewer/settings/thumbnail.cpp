@@ -21,7 +21,7 @@
 
 #include "argil/io/png.h"
 
-#include "support/png_maker.h"
+#include "support/bytes/png_maker.h"
 #include "support/scratch.h"
 #include "support/setting.h"
 

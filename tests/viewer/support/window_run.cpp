@@ -80,14 +80,16 @@ viewer::Camera WindowTest::first_camera(const Box3& bounds_mm) {
   return camera;
 }
 
-void leave_a_stroke(const std::filesystem::path& project) {
-  auto session = io::Session::create(project, Clay::ball(25.0, {}).value());
-  ASSERT_TRUE(session.ok());
+std::uint64_t leave_a_stroke(const std::filesystem::path& project, double radius_mm) {
+  std::filesystem::create_directories(project.parent_path());
+  auto session = io::Session::create(project, Clay::ball(radius_mm, {}).value());
+  EXPECT_TRUE(session.ok());
   Stroke stroke;
-  stroke.samples = {{0.0, {25.0, 0.0, 0.0}, {}, 1.0}};
-  ASSERT_TRUE(session.value().clay().apply(stroke).ok());
+  stroke.samples = {{0.0, {radius_mm, 0.0, 0.0}, {}, 1.0}};
+  EXPECT_TRUE(session.value().clay().apply(stroke).ok());
   session.value().record(stroke);
-  ASSERT_TRUE(session.value().flush().ok());
+  EXPECT_TRUE(session.value().flush().ok());
+  return session.value().clay().hash();
 }
 
 std::string name_file(const std::filesystem::path& file) {

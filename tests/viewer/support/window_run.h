@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -59,8 +60,9 @@ class WindowTest : public testing::Test {
 /// A file in the quotes of a shell; for names without any.
 std::string shell_word(const std::filesystem::path& file);
 
-/// A project, a ball, with a stroke that only its journal has: what a killed window leaves.
-void leave_a_stroke(const std::filesystem::path& project);
+/// A project, a ball, with a stroke that only its journal has: what a killed window leaves. Makes
+/// its folder. Returns the hash that it has with that stroke.
+std::uint64_t leave_a_stroke(const std::filesystem::path& project, double radius_mm = 25.0);
 
 /// The lines of a script that name a file in an open dialog.
 std::string name_file(const std::filesystem::path& file);

@@ -4,7 +4,8 @@
 // the background; the active piece, then the others, whose depth is then kept; occlusion or
 // curvature, worked out from that depth; the slice. This is the clay's layer, which stays as long
 // as neither the lens nor the shading changes; where blocks change, the parts of it that show them
-// are drawn anew. The picture is a copy of it with the marks.
+// are drawn anew. The picture is a copy of it with the marks. On a software renderer clay that
+// moves has a layer of half the size, of which the picture is a stretched copy.
 #include "gl/gl_renderer.h"
 
 #include <algorithm>

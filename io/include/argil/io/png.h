@@ -45,8 +45,9 @@ struct TextedImage {
 
 /// Such a PNG as read_image() reads it, of a small picture that anybody may have written: nothing
 /// is unpacked of one with a side above `most_side` pixels, or of a file of more than 8 bytes for
-/// each pixel of such a picture and 64 KB. Errors   as read_image, with these bounds in the place
-/// of its own; also bad_input for what is no
+/// each pixel of such a picture and 64 KB.
+///
+/// Errors   as read_image, with these bounds in the place of its own; also bad_input for what is no
 ///          PNG, and for a damaged text.
 /// Threads  any.
 Result<TextedImage> read_small_png(const std::filesystem::path& file, int most_side);

@@ -24,7 +24,11 @@ std::int64_t collapse_folded(TriangleMesh& mesh,
                              double longest_mm = std::numeric_limits<double>::infinity());
 
 /// Rounds of collapse_folded, at most four, until the mesh is printable or nothing more goes.
-/// Returns what check_mesh would say of it last. Throws Interrupted where `pace` asks to stop.
+///
+/// Returns      what check_mesh would say of it last.
+/// Errors       throws Interrupted where `pace` asks to stop, and std::bad_alloc: to be called
+///              within no_throw.
+/// Threads      as collapse_folded; `pace` is told from the thread that calls.
 MeshVerdict check_and_collapse_folded(TriangleMesh& mesh, double longest_mm, const Pace& pace);
 
 }  // namespace argil::mesh
