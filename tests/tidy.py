@@ -35,12 +35,18 @@ def preprocessed(entry):
     return subprocess.run(words, cwd=entry["directory"], capture_output=True, check=True).stdout
 
 
-def key_of(entry, common):
-    return hashlib.sha256(common + preprocessed(entry)).hexdigest()[:32]
+def checks_of(file):
+    """The .clang-tidy files that count for the source, from the root down."""
+    folders = reversed(Path(file).parents)
+    return b"".join((f / ".clang-tidy").read_bytes() for f in folders if (f / ".clang-tidy").exists())
 
 
-def is_clean(build, file, entry, common):
-    mark = KEPT / key_of(entry, common)
+def key_of(file, entry, version):
+    return hashlib.sha256(version + checks_of(file) + preprocessed(entry)).hexdigest()[:32]
+
+
+def is_clean(build, file, entry, version):
+    mark = KEPT / key_of(file, entry, version)
     if mark.exists():
         mark.touch()
         return True
@@ -61,11 +67,10 @@ def main():
     for mark in KEPT.iterdir():
         if time.time() - mark.stat().st_mtime > KEPT_S:
             mark.unlink()
-    common = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
-    common += Path(".clang-tidy").read_bytes()
+    version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
     commands = commands_of(build)
     with ThreadPoolExecutor(int(os.environ.get("ARGIL_JOBS", "2"))) as pool:
-        found = pool.map(lambda f: is_clean(build, f, commands[os.path.realpath(f)], common), files)
+        found = pool.map(lambda f: is_clean(build, f, commands[os.path.realpath(f)], version), files)
         return 0 if all(list(found)) else 1
 
 

@@ -75,9 +75,9 @@ double pass_ns(const NormalStrategy& strategy, const std::vector<WavePoint>& poi
 }
 
 double median_ns(const NormalStrategy& strategy, const std::vector<WavePoint>& points, int passes) {
-  std::vector<double> ns;
+  std::vector<double> ns(static_cast<std::size_t>(passes));
   pass_ns(strategy, points);  // warms the caches
-  for (int n = 0; n < passes; ++n) ns.push_back(pass_ns(strategy, points));
+  for (double& pass : ns) pass = pass_ns(strategy, points);
   const auto middle = ns.begin() + passes / 2;
   std::nth_element(ns.begin(), middle, ns.end());
   return *middle;
