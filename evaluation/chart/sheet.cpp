@@ -70,6 +70,16 @@ std::string KeyStrip::text() const {
          plots_ + "\n";
 }
 
+std::vector<double> grown_by(double factor, double first, double last) {
+  std::vector<double> values;
+  double value = first;
+  while (value <= last) {
+    values.push_back(value);
+    value *= factor;
+  }
+  return values;
+}
+
 std::string point_text(double x, double y) { return cli::number(x) + " " + cli::number(y) + "\n"; }
 
 }  // namespace argil::evaluation

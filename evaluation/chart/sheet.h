@@ -68,6 +68,10 @@ class KeyStrip {
   std::string plots_;
 };
 
+/// Places along a logarithmic axis: `first` and on, each the one before times `factor` (> 1), up to
+/// `last`.
+std::vector<double> grown_by(double factor, double first, double last);
+
 /// "x y" as a line.
 std::string point_text(double x, double y);
 

@@ -44,20 +44,26 @@ Vec3 node_at(int i, int j, int k) {
 /// The quarter that is cut away so that one sees the inside.
 bool is_cut_away(int i, int j, int k) { return i >= kHalf && j < kHalf && k >= kHalf; }
 
+/// The least and the greatest distance at the corners of a cube.
+std::pair<double, double> corner_distances(const Clay& clay, int i, int j, int k) {
+  double least = 1e9;
+  double most = -1e9;
+  for (int corner = 0; corner < 8; ++corner) {
+    const double phi = clay.distance_at(
+        kCubeMm * node_at(i + (corner >> 2), j + ((corner >> 1) & 1), k + (corner & 1)));
+    least = std::min(least, phi);
+    most = std::max(most, phi);
+  }
+  return {least, most};
+}
+
 template <class Keep>
 CubeSet cubes_where(const Clay& clay, const Keep& keep) {
   CubeSet cubes(static_cast<std::size_t>(kSide) * kSide * kSide);
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
       for (int k = 0; k < kSide; ++k) {
-        double least = 1e9;
-        double most = -1e9;
-        for (int corner = 0; corner < 8; ++corner) {
-          const double phi = clay.distance_at(
-              kCubeMm * node_at(i + (corner >> 2), j + ((corner >> 1) & 1), k + (corner & 1)));
-          least = std::min(least, phi);
-          most = std::max(most, phi);
-        }
+        const auto [least, most] = corner_distances(clay, i, j, k);
         cubes[cube_index(i, j, k)] = keep(least, most);
       }
     }
@@ -135,10 +141,8 @@ std::string surface_text(const TriangleMesh& mesh) {
   const Vec3 light = normalized(kEye + Vec3{-0.3, 0.0, 0.5});
   std::array<std::string, kShades> shades;
   for (const auto& triangle : mesh.triangles) {
-    std::vector<Vec3> corners;
-    for (const auto vertex : triangle) {
-      corners.push_back(mesh.positions[vertex]);
-    }
+    const std::vector<Vec3> corners{mesh.positions[triangle[0]], mesh.positions[triangle[1]],
+                                    mesh.positions[triangle[2]]};
     const Vec3 across = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (length(across) == 0.0 || dot(across, kEye) <= 0.0) continue;
     const double lit = std::max(0.0, dot(normalized(across), light));

@@ -188,7 +188,7 @@ ReportFigure filter_figure() {
     const std::string title = cli::number(sizes_mm[n]) + " mm";
     steps.add(step_response(sizes_mm[n]), styles[n], title);
     std::string left;
-    for (double f = 1.0; f <= 460.0; f *= 1.1) {
+    for (const double f : grown_by(1.1, 1.0, 460.0)) {
       left += point_text(f, left_of_vibration(f, sizes_mm[n]));
     }
     vibrations.add(left, styles[n], title);
@@ -197,7 +197,7 @@ ReportFigure filter_figure() {
   std::string bounds;
   std::string lambdas;
   double farthest_mm = 0.0;
-  for (double v = 1.0; v <= 3001.0; v *= 1.15) {
+  for (const double v : grown_by(1.15, 1.0, 3001.0)) {
     farthest_mm = std::max(farthest_mm, lag_mm(v));
     lags += point_text(v, lag_mm(v));
     bounds += point_text(v, bound_mm);

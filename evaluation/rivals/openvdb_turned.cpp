@@ -8,7 +8,7 @@ namespace argil::evaluation {
 
 openvdb::FloatGrid::Ptr transformed_to(const openvdb::math::Transform& to,
                                        const openvdb::FloatGrid& levels) {
-  const auto on_lattice = openvdb::FloatGrid::create(levels.background());
+  auto on_lattice = openvdb::FloatGrid::create(levels.background());
   on_lattice->setTransform(to.copy());
   on_lattice->setGridClass(openvdb::GRID_LEVEL_SET);
   openvdb::util::NullInterrupter interrupter;

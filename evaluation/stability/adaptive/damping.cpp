@@ -51,13 +51,27 @@ void measure_damped_wall(DampedWallRow& row) {
   }
 }
 
-std::vector<Damper> wall_dampers(DampingKind kind, bool quick) {
-  std::vector<Damper> dampers{{kind, 0.0}};
-  for (const double damping : spread(1.25, 80.0, quick ? 4 : 13)) {
-    dampers.push_back({kind, damping});
+std::vector<Damper> wall_dampers(bool quick) {
+  std::vector<Damper> dampers;
+  for (const DampingKind kind : {DampingKind::fixed, DampingKind::adaptive}) {
+    dampers.push_back({kind, 0.0});
+    for (const double damping : spread(1.25, 80.0, quick ? 4 : 13)) {
+      dampers.push_back({kind, damping});
+    }
+    if (kind == DampingKind::fixed) dampers.push_back({kind, kBoundDamping});
   }
-  if (kind == DampingKind::fixed) dampers.push_back({kind, kBoundDamping});
   return dampers;
+}
+
+void add_walls(std::vector<DampedWallRow>& rows, haptics::Hand hand, bool is_frictionless,
+               const Damper& damper, bool quick) {
+  for (const double k : spread(kLeastDampedWall, kMostDampedWall, quick ? 6 : 24)) {
+    DampedWallRow& row = rows.emplace_back();
+    row.hand = hand;
+    row.is_frictionless = is_frictionless;
+    row.damper = damper;
+    row.stiffness_n_per_m = k;
+  }
 }
 
 void search_period(DampedPeriodRow& row, const StiffnessGrid& grid) {
@@ -90,17 +104,8 @@ Result<std::vector<DampedWallRow>> measure_damped_walls(bool quick, const Progre
   std::vector<DampedWallRow> rows;
   for (const bool is_frictionless : {false, true}) {
     for (const haptics::Hand hand : kHands) {
-      for (const DampingKind kind : {DampingKind::fixed, DampingKind::adaptive}) {
-        for (const Damper& damper : wall_dampers(kind, quick)) {
-          for (const double k : spread(kLeastDampedWall, kMostDampedWall, quick ? 6 : 24)) {
-            DampedWallRow& row = rows.emplace_back();
-            row.hand = hand;
-            row.is_frictionless = is_frictionless;
-            row.damper = damper;
-            row.stiffness_n_per_m = k;
-          }
-        }
-      }
+      for (const Damper& damper : wall_dampers(quick))
+        add_walls(rows, hand, is_frictionless, damper, quick);
     }
   }
   std::vector<std::function<void()>> work;

@@ -187,10 +187,12 @@ void measure_motion(DampedMotionRow& row, const DampedMotion& motion) {
   const HoldCase held = damped_case(row.hand, false, row.damper, kPeriodS);
   haptics::HoldTest test = hold_test(held, 0.0);
   test.plan.clear();
-  for (double t = 0.0; t <= kMotionS; t += kKeyS) {
+  double t = 0.0;
+  while (t <= kMotionS) {
     HandKey key = motion.at(t);
     key.time_s = t;
     test.plan.push_back(key);
+    t += kKeyS;
   }
   test.settle_s = 0.0;
   test.watch_s = kMotionS;

@@ -33,8 +33,10 @@ HeightLaw::HeightLaw(const LateTool& tool)
       least_mm_(tool.is_spring() ? -60.0 : -4.0 * tool.radius_mm - 30.0),
       most_mm_(tool.is_spring() ? 1.0
                                 : haptics::kKernelSupport * tool.radius_mm + tool.skin_mm + 1.0) {
-  for (double height = least_mm_; height <= most_mm_; height += kTableStepMm) {
+  double height = least_mm_;
+  while (height <= most_mm_) {
     tool.is_spring() ? add_spring(height) : add_ball(height);
+    height += kTableStepMm;
   }
   for (std::size_t i = 0; i < table_.size(); ++i) {
     const std::size_t before = i > 0 ? i - 1 : i;

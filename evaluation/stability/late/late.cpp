@@ -149,16 +149,21 @@ LateCase spring_case(double n_per_m, haptics::Hand hand, bool is_direct, const L
   return what;
 }
 
+void add_spring(double n_per_m, haptics::Hand hand, double period_s, bool quick, Laws& laws,
+                std::vector<LateRow>& rows) {
+  for (const double age_s : late_ages_s(quick)) {
+    rows.push_back(
+        row_of(LateWay::simulation, spring_case(n_per_m, hand, true, {age_s, period_s}), laws));
+  }
+}
+
 void add_spring_rows(bool quick, Laws& laws, std::vector<LateRow>& rows) {
   const std::vector<double> periods =
       quick ? std::vector{0.005, 0.02} : std::vector{0.005, 0.02, 0.05};
   for (const haptics::Hand hand : kHands) {
     for (const double period_s : periods) {
       for (const double n_per_m : late_spring_stiffnesses(quick)) {
-        for (const double age_s : late_ages_s(quick)) {
-          rows.push_back(row_of(LateWay::simulation,
-                                spring_case(n_per_m, hand, true, {age_s, period_s}), laws));
-        }
+        add_spring(n_per_m, hand, period_s, quick, laws, rows);
       }
     }
   }

@@ -48,7 +48,7 @@ std::string spring_boxes(const std::vector<LateRow>& rows, const LatePicks& pick
 /// out.
 std::string equation_line(haptics::Hand hand, double period_s) {
   std::string text;
-  for (double k = 150.0; k <= 2400.0; k *= 1.02) {
+  for (const double k : grown_by(1.02, 150.0, 2400.0)) {
     LateTool spring{"spring", 0.0, 0.0, 0.0};
     spring.spring_n_per_m = k;
     const LateCase what{LateAction::carve,   spring,         hand, true,
@@ -65,7 +65,8 @@ std::string equation_line(haptics::Hand hand, double period_s) {
 /// Below it no loop of that mass chatters: K = m pi^2 / (2 tau^2).
 std::string never_line(haptics::Hand hand, double period_s) {
   std::string text;
-  for (double age_s = 0.0; age_s <= 0.1; age_s += 1e-3) {
+  double age_s = 0.0;
+  while (age_s <= 0.1) {
     LateTool spring{"spring", 0.0, 0.0, 0.0};
     spring.spring_n_per_m = 1.0;
     const LateCase what{LateAction::carve,   spring,           hand, true,
@@ -75,6 +76,7 @@ std::string never_line(haptics::Hand hand, double period_s) {
     constexpr double kPi = 3.14159265358979323846;
     const double k = 0.5 * mass_kg * (kPi / tau_s) * (kPi / tau_s);
     if (k >= 130.0 && k <= 2800.0) text += point_text(1e3 * age_s, std::log10(k));
+    age_s += 1e-3;
   }
   return text;
 }
@@ -96,6 +98,7 @@ std::string map_panel(const std::vector<LateRow>& rows, haptics::Hand hand, doub
 
 std::vector<double> periods_of(const std::vector<LateRow>& rows) {
   std::vector<double> periods;
+  periods.reserve(rows.size());
   for (const LateRow& row : rows) periods.push_back(row.what.late.period_s);
   std::sort(periods.begin(), periods.end());
   periods.erase(std::unique(periods.begin(), periods.end()), periods.end());

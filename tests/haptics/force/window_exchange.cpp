@@ -137,6 +137,29 @@ TEST(WindowExchange, BearsAHandThatPressesOn) {
   EXPECT_GT(servo.at(ball_tool(kToolMm, {0, 0, 6.0 - 2.0 * kToolMm})).contact_n.z, 3.0);
 }
 
+struct CircleWork {
+  double done_nmm = 0.0;    // all the way around
+  double turned_nmm = 0.0;  // without its sign
+};
+
+CircleWork work_on_circle(const ServoForce& servo) {
+  CircleWork work;
+  Vec3 last_mm;
+  Vec3 last_n;
+  constexpr int kSteps = 400;
+  for (int n = 0; n <= kSteps; ++n) {
+    const double angle = 2.0 * 3.14159265358979 * n / kSteps;
+    const Vec3 place{std::cos(angle), 0.6 * std::sin(angle), 0.5 + 0.8 * std::sin(angle)};
+    const Vec3 force_n = servo.at(ball_tool(kToolMm, place)).contact_n;
+    const double piece_nmm = n > 0 ? 0.5 * dot(force_n + last_n, place - last_mm) : 0.0;
+    work.done_nmm += piece_nmm;
+    work.turned_nmm += std::abs(piece_nmm);
+    last_mm = place;
+    last_n = force_n;
+  }
+  return work;
+}
+
 /// In the middle of an exchange, and while energy is held back: no work on a closed path.
 TEST(WindowExchange, IsConservativeAtAnyShare) {
   WindowChannel channel;
@@ -149,25 +172,9 @@ TEST(WindowExchange, IsConservativeAtAnyShare) {
   for (int tick = 0; tick < 12; ++tick) {
     servo.begin_tick(tool, kTickS);
     if (tick % 4 == 1) {  // between both windows, and on the new one
-      double work_nmm = 0.0;
-      double turned_nmm = 0.0;
-      Vec3 last_mm;
-      Vec3 last_n;
-      constexpr int kSteps = 400;
-      for (int n = 0; n <= kSteps; ++n) {
-        const double angle = 2.0 * 3.14159265358979 * n / kSteps;
-        const Vec3 place{std::cos(angle), 0.6 * std::sin(angle), 0.5 + 0.8 * std::sin(angle)};
-        const Vec3 force_n = servo.at(ball_tool(kToolMm, place)).contact_n;
-        if (n > 0) {
-          const double piece_nmm = 0.5 * dot(force_n + last_n, place - last_mm);
-          work_nmm += piece_nmm;
-          turned_nmm += std::abs(piece_nmm);
-        }
-        last_mm = place;
-        last_n = force_n;
-      }
-      EXPECT_GT(turned_nmm, 1.0);
-      EXPECT_LE(std::abs(work_nmm), 1e-3 * turned_nmm) << tick;
+      const CircleWork work = work_on_circle(servo);
+      EXPECT_GT(work.turned_nmm, 1.0);
+      EXPECT_LE(std::abs(work.done_nmm), 1e-3 * work.turned_nmm) << tick;
     }
   }
   const LatticeForce lattice(tool, {}, ForceLaw::energy, choose_lattice(tool).voxel_mm);

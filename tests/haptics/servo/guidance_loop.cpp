@@ -123,6 +123,17 @@ TEST(GuidanceLoop, LeadsThePathAsTheHandsStiffnessLets) {
   EXPECT_NEAR(off_mm(GuidanceKind::hybrid), 5.5, 1.5) << "8 mm are beyond its tolerance";
 }
 
+void expect_quiet_at(const Vec3& at, const std::vector<Vec3>& loop, Hand hand) {
+  for (const bool has_friction : {true, false}) {
+    Air air;
+    const std::vector<HandKey> plan{key_at(0.0, {-20.0, 0.0, 0.0}), key_at(1.5, at)};
+    const Guided in =
+        run(air, along(GuidanceKind::indirect, loop), test_of(hand, plan, has_friction));
+    EXPECT_EQ(in.ran.judgement.verdict, Verdict::quiet)
+        << loop.size() - 1 << " sides, hand " << static_cast<int>(hand) << ": " << said(in);
+  }
+}
+
 /// Off-hand into a loop of 15 mm, to its middle and beside it: a push has no side there.
 TEST(GuidanceLoop, IsQuietInsideALoop) {
   for (const int sides : {8, 24}) {
@@ -132,50 +143,48 @@ TEST(GuidanceLoop, IsQuietInsideALoop) {
       loop.push_back({15.0 * std::cos(angle), 15.0 * std::sin(angle), 0.0});
     }
     for (const Hand hand : kAllHands) {
-      for (const bool has_friction : {true, false}) {
-        for (const Vec3& at : {Vec3{}, Vec3{8.0, 3.0, 0.0}}) {
-          Air air;
-          const std::vector<HandKey> plan{key_at(0.0, {-20.0, 0.0, 0.0}), key_at(1.5, at)};
-          const Guided in =
-              run(air, along(GuidanceKind::indirect, loop), test_of(hand, plan, has_friction));
-          EXPECT_EQ(in.ran.judgement.verdict, Verdict::quiet)
-              << sides << " sides, hand " << static_cast<int>(hand) << ": " << said(in);
-        }
-      }
+      for (const Vec3& at : {Vec3{}, Vec3{8.0, 3.0, 0.0}}) expect_quiet_at(at, loop, hand);
     }
   }
 }
 
+/// A servo loop and the stiffest guidance that it may give.
+struct GuidedLoop {
+  double rate_hz;
+  int delay_ticks;
+  double filter;  // 0: none
+  double lambda_mm;
+  double most_n_per_m;  // of guidance, of a Falcon with 3.975 N s/m
+};
+
+/// Brought to the path's end in a jerk.
+HoldTest jerk_in(const GuidedLoop& loop, Hand hand) {
+  HoldTest test = test_of(
+      hand,
+      {key_at(0.0, {0.0, 12.0, 0.0}), key_at(0.7, {0.0, 12.0, 0.0}), key_at(0.75, {0.0, 2.0, 0.0})},
+      false);
+  test.servo.period_s = 1.0 / loop.rate_hz;
+  test.device.delay_ticks = loop.delay_ticks;
+  if (loop.filter > 0.0) {
+    test.servo.position_filter = PositionFilterOptions{loop.filter, loop.lambda_mm};
+  }
+  return test;
+}
+
 /// Loops as slow, late and filtered as can be asked for, and the stiffest and strongest guidance.
 TEST(GuidanceLoop, IsQuietInLoopsThatAreSlowLateOrFiltered) {
-  struct Loop {
-    double rate_hz;
-    int delay_ticks;
-    double filter;  // 0: none
-    double lambda_mm;
-    double most_n_per_m;  // of guidance, of a Falcon with 3.975 N s/m
-  };
-  constexpr std::array loops{Loop{1000.0, 1, 0.0, 0.0, 500.0}, Loop{1000.0, 1, 0.02, 10.0, 19.7},
-                             Loop{1000.0, 1, 0.2, 0.3, 181.0}, Loop{100.0, 3, 0.0, 0.0, 28.4},
-                             Loop{200.0, 5, 0.0, 0.0, 36.1},   Loop{250.0, 4, 0.05, 3.0, 27.9}};
-  for (const Loop& loop : loops) {
+  constexpr std::array loops{
+      GuidedLoop{1000.0, 1, 0.0, 0.0, 500.0}, GuidedLoop{1000.0, 1, 0.02, 10.0, 19.7},
+      GuidedLoop{1000.0, 1, 0.2, 0.3, 181.0}, GuidedLoop{100.0, 3, 0.0, 0.0, 28.4},
+      GuidedLoop{200.0, 5, 0.0, 0.0, 36.1},   GuidedLoop{250.0, 4, 0.05, 3.0, 27.9}};
+  for (const GuidedLoop& loop : loops) {
     for (const GuidanceKind kind : kKinds) {
       for (const Hand hand : kAllHands) {
-        // Brought to the path's end in a jerk.
-        HoldTest test = test_of(hand,
-                                {key_at(0.0, {0.0, 12.0, 0.0}), key_at(0.7, {0.0, 12.0, 0.0}),
-                                 key_at(0.75, {0.0, 2.0, 0.0})},
-                                false);
-        test.servo.period_s = 1.0 / loop.rate_hz;
-        test.device.delay_ticks = loop.delay_ticks;
-        if (loop.filter > 0.0) {
-          test.servo.position_filter = PositionFilterOptions{loop.filter, loop.lambda_mm};
-        }
         GuidanceOptions options = along(kind, {{-10.0, 0.0, 0.0}, {10.0, 0.0, 0.0}});
         options.stiffness_n_per_m = 500.0;
         options.most_force_n = 8.0;
         Air air;
-        const Guided steady = run(air, options, test);
+        const Guided steady = run(air, options, jerk_in(loop, hand));
         EXPECT_EQ(steady.ran.judgement.verdict, Verdict::quiet)
             << loop.rate_hz << " Hz, " << loop.delay_ticks << " ticks, filter " << loop.filter
             << ", " << guidance_name(kind) << ", hand " << static_cast<int>(hand) << ": "

@@ -43,6 +43,17 @@ class StillGl : public test::WindowTest {
            "click Save the still\nframes 400\n";
   }
 
+  /// The mean of a channel over a square of `times` by `times` pixels.
+  static double mean_of_square(const Image& image, int x, int y, int times, std::size_t channel) {
+    double sum = 0.0;
+    for (int n = 0; n < times * times; ++n) {
+      const int row = y * times + n / times;
+      const int column = x * times + n % times;
+      sum += image.rgb.at(3 * static_cast<std::size_t>(row * image.width + column) + channel);
+    }
+    return sum / (times * times);
+  }
+
   /// The mean difference of the rows that no menu covers, the larger picture averaged by `times`.
   static double mean_difference(const Image& small, const Image& large, int times) {
     double sum = 0.0;
@@ -50,15 +61,8 @@ class StillGl : public test::WindowTest {
     for (int y = 40; y < small.height - 40; ++y) {
       for (int x = 0; x < small.width; ++x) {
         for (std::size_t c = 0; c < 3; ++c) {
-          double mean = 0.0;
-          for (int n = 0; n < times * times; ++n) {
-            const int row = y * times + n / times;
-            const int column = x * times + n % times;
-            mean += large.rgb.at(3 * static_cast<std::size_t>(row * large.width + column) + c);
-          }
-          mean /= times * times;
-          sum +=
-              std::abs(mean - small.rgb.at(3 * static_cast<std::size_t>(y * small.width + x) + c));
+          const std::size_t at = 3 * static_cast<std::size_t>(y * small.width + x) + c;
+          sum += std::abs(mean_of_square(large, x, y, times, c) - small.rgb.at(at));
           ++count;
         }
       }

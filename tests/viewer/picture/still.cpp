@@ -119,6 +119,14 @@ TEST(StillPictures, AverageLight) {
   EXPECT_EQ(*std::max_element(image.rgb.begin(), image.rgb.end()), 188);
 }
 
+std::array<double, 4> by_matrix(const Matrix& m, const std::array<double, 4>& v) {
+  std::array<double, 4> out{};
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t k = 0; k < 4; ++k) out[row] += double{m[4 * k + row]} * v[k];
+  }
+  return out;
+}
+
 /// Of both kinds of lens: a point is seen in the part where it is seen in the whole.
 TEST(StillPictures, APartsLensProjectsAsTheWhole) {
   for (const bool is_parallel : {false, true}) {
@@ -130,14 +138,7 @@ TEST(StillPictures, APartsLensProjectsAsTheWhole) {
     const auto clip = [](const Lens& of, const Vec3& p) {
       const Matrix view = of.view();
       const Matrix projection = of.projection();
-      const auto times = [](const Matrix& m, const std::array<double, 4>& v) {
-        std::array<double, 4> out{};
-        for (std::size_t row = 0; row < 4; ++row) {
-          for (std::size_t k = 0; k < 4; ++k) out[row] += double{m[4 * k + row]} * v[k];
-        }
-        return out;
-      };
-      const auto c = times(projection, times(view, {p.x, p.y, p.z, 1.0}));
+      const auto c = by_matrix(projection, by_matrix(view, {p.x, p.y, p.z, 1.0}));
       return Vec3{c[0] / c[3], c[1] / c[3], c[2] / c[3]};
     };
     for (const Vec3& p : {Vec3{3, -7, 11}, Vec3{-20, 4, -9}, Vec3{0, 0, 0}}) {

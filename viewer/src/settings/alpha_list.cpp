@@ -44,10 +44,10 @@ Thumb middle_of(const AlphaImage& image, double zoom) {
 /// A pattern so fine that it would be one grey is shown larger, in part.
 Thumb thumb_of(const AlphaImage& image) {
   constexpr int kLeastContrast = 100;
-  constexpr double kMostZoom = 8.0;
+  constexpr int kMostZoom = 8;
   const double all = 255.0 * (image.range().most - image.range().least);
   Thumb thumb{};
-  for (double zoom = 1.0; zoom <= kMostZoom; zoom *= 2.0) {
+  for (int zoom = 1; zoom <= kMostZoom; zoom *= 2) {
     thumb = middle_of(image, zoom);
     const auto [least, most] = std::minmax_element(thumb.begin(), thumb.end());
     if (*most - *least >= std::min<double>(kLeastContrast, 0.5 * all)) break;
