@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -18,7 +19,7 @@ std::shared_ptr<const AlphaImage> image_of(int width, int height, const Grey& gr
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
       const double held = std::clamp(static_cast<double>(grey(column, row)), 0.0, 1.0);
-      pixels.push_back(static_cast<std::uint16_t>(65535.0 * held + 0.5));
+      pixels.push_back(static_cast<std::uint16_t>(std::lround(65535.0 * held)));
     }
   }
   return AlphaImage::make(width, height, std::move(pixels)).value();

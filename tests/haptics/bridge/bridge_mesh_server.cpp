@@ -199,10 +199,8 @@ TEST(BridgeMeshServer, ProvesItselfForEachReadersOwnNumber) {
 TEST(BridgeMeshServer, WhoSaysNothingKeepsNobodyOut) {
   const auto server = opened();
   server->publish(blocks_of(1, 1.0F), {});
-  std::vector<std::unique_ptr<MeshReader>> silent;
-  for (int n = 0; n < 2 * BridgeMeshServer::kMostSilent; ++n) {
-    silent.push_back(std::make_unique<MeshReader>(server->port()));
-  }
+  std::vector<std::unique_ptr<MeshReader>> silent(2 * BridgeMeshServer::kMostSilent);
+  for (auto& reader : silent) reader = std::make_unique<MeshReader>(server->port());
   MeshReader reader(server->port());
   reader.ask();
   EXPECT_TRUE(reader.update());

@@ -72,7 +72,8 @@ TEST(ClayScene, AddsATextureOfTheDetailThatTheWindowLost) {
   detail.step_y_mm = {0.0, 0.25, 0.0};
   detail.normal = {0.0, 0.0, 1.0};
   for (int n = 0; n < SurfaceDetail::kSide * SurfaceDetail::kSide; ++n) {
-    const double x = (n / SurfaceDetail::kSide) * 0.25 - 3.875;
+    const int row = n / SurfaceDetail::kSide;
+    const double x = row * 0.25 - 3.875;
     detail.height_mm[static_cast<std::size_t>(n)] =
         static_cast<float>(0.05 * std::sin(std::numbers::pi * x));
   }

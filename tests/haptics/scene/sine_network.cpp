@@ -239,7 +239,8 @@ TEST(SineNetworkGolden, AnswersHaveOneHash) {
   Hash64 hash;
   for (int n = 0; n < 4096; ++n) {
     // Sixty-fourths are exact.
-    const Vec3 place{(n % 16) / 16.0, (n / 16 % 16) / 16.0, (n / 256 - 8) / 32.0};
+    const int layer = n / 256;
+    const Vec3 place{(n % 16) / 16.0, (n / 16 % 16) / 16.0, (layer - 8) / 32.0};
     const SineNetwork::Answer found = network.at(place);
     const std::array<double, 4> answer{found.distance_mm, found.gradient.x, found.gradient.y,
                                        found.gradient.z};

@@ -24,7 +24,8 @@ SurfaceDetail patch_of_waves(double height_mm) {
   detail.step_y_mm = {0.0, kPatchStepMm, 0.0};
   detail.normal = {0.0, 0.0, 1.0};
   for (int n = 0; n < SurfaceDetail::kSide * SurfaceDetail::kSide; ++n) {
-    const double x = (n / SurfaceDetail::kSide) * kPatchStepMm - kHalf;
+    const int row = n / SurfaceDetail::kSide;
+    const double x = row * kPatchStepMm - kHalf;
     detail.height_mm[static_cast<std::size_t>(n)] =
         static_cast<float>(height_mm * std::sin(2.0 * std::numbers::pi * x / kPatchWaveMm));
   }

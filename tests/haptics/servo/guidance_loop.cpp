@@ -173,11 +173,11 @@ HoldTest jerk_in(const GuidedLoop& loop, Hand hand) {
 
 /// Loops as slow, late and filtered as can be asked for, and the stiffest and strongest guidance.
 TEST(GuidanceLoop, IsQuietInLoopsThatAreSlowLateOrFiltered) {
-  constexpr std::array loops{
+  constexpr std::array kLoops{
       GuidedLoop{1000.0, 1, 0.0, 0.0, 500.0}, GuidedLoop{1000.0, 1, 0.02, 10.0, 19.7},
       GuidedLoop{1000.0, 1, 0.2, 0.3, 181.0}, GuidedLoop{100.0, 3, 0.0, 0.0, 28.4},
       GuidedLoop{200.0, 5, 0.0, 0.0, 36.1},   GuidedLoop{250.0, 4, 0.05, 3.0, 27.9}};
-  for (const GuidedLoop& loop : loops) {
+  for (const GuidedLoop& loop : kLoops) {
     for (const GuidanceKind kind : kKinds) {
       for (const Hand hand : kAllHands) {
         GuidanceOptions options = along(kind, {{-10.0, 0.0, 0.0}, {10.0, 0.0, 0.0}});

@@ -45,7 +45,7 @@ bool become_ordinary() {
 std::string refusal_of_a_thread() {
   std::promise<void> end;
   std::thread thread([ended = end.get_future()] { ended.wait(); });
-  const std::string refusal = ask_for_priority(thread);
+  std::string refusal = ask_for_priority(thread);
   end.set_value();
   thread.join();
   return refusal;

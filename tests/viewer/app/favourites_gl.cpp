@@ -31,7 +31,7 @@ class ViewFavouritesGl : public test::WindowTest {
     ASSERT_TRUE(io::save_project(folder_ / "s.vdb", Clay::ball(25.0, {}).value()).ok());
   }
   WindowRun played(const std::string& script, const std::string& size = test::kWindowSize) {
-    const WindowRun run =
+    WindowRun run =
         play("settle\n" + script + "key Ctrl+Q\nframes 3\n", shell_word(folder_ / "s.vdb"), size);
     EXPECT_EQ(run.status, 0) << run.words;
     EXPECT_EQ(run.report["gl_errors"], 0);

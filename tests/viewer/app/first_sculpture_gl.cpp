@@ -65,6 +65,7 @@ TEST_F(FirstSculptureGl, ThePageEndsInAPrintablePartAndShowsWhatAPersonSees) {
 TEST(FirstSculpturePage, ShowsEveryPictureThatItsScriptTakes) {
   const test::PageScript page = test::read_page_script(kPage);
   std::vector<fs::path> shown;
+  shown.reserve(page.pictures.size());
   for (const fs::path& picture : page.pictures) shown.push_back(kPage.parent_path() / picture);
   EXPECT_EQ(shown, page.shots);
 }

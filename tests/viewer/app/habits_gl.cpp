@@ -36,8 +36,8 @@ class ViewHabitsGl : public test::WindowTest {
 
   /// A window with a project, which no script of these tests changes.
   WindowRun played(const std::string& script) {
-    const WindowRun run = play("settle\n" + script + "key Ctrl+Q\nframes 3\n",
-                               shell_word(folder_ / "s.vdb"), "--width 1000 --height 640");
+    WindowRun run = play("settle\n" + script + "key Ctrl+Q\nframes 3\n",
+                         shell_word(folder_ / "s.vdb"), "--width 1000 --height 640");
     EXPECT_EQ(run.status, 0) << run.words;
     return run;
   }
@@ -62,7 +62,8 @@ class ViewHabitsGl : public test::WindowTest {
     double sum = 0.0;
     for (int y = top; y < top + side; ++y) {
       for (int x = 0; x < 3 * side; ++x) {
-        sum += image.rgb[static_cast<std::size_t>(3 * (y * image.width + left) + x)];
+        sum += image.rgb[3 * static_cast<std::size_t>(y * image.width + left) +
+                         static_cast<std::size_t>(x)];
       }
     }
     return sum / (3.0 * side * side);

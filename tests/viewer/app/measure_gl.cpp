@@ -71,15 +71,15 @@ TEST_F(ViewMeasureGl, DistanceAngleAndThicknessAreThoseOfTheSolids) {
 }
 
 TEST_F(ViewMeasureGl, FromOnePieceToAnotherAndAlongWithAnEndThatIsDragged) {
-  const Vec3 toward = normalized(camera_.lens({}).eye_mm - kHead.position_mm);
-  const Vec3 front = kHead.position_mm + 9.0 * toward;
+  const Vec3 toward = normalized(camera_.lens({}).eye_mm - head_place_.position_mm);
+  const Vec3 front = head_place_.position_mm + 9.0 * toward;
   const Vec3 one{-8.0, -10.0, -6.0};
   const Vec3 other{3.0, -10.0, -2.0};
   const std::string pick = "key Shift+U\nframes 2\n" + click(front) + click(one);
   const nlohmann::json first = measured(pick);
   ASSERT_EQ(first.size(), 1U);
   const Vec3 on_head = vec_of(first[0].at("points_mm")[0]);
-  EXPECT_NEAR(length(on_head - kHead.position_mm), 9.0, 0.05 * kPieceVoxelMm);
+  EXPECT_NEAR(length(on_head - head_place_.position_mm), 9.0, 0.05 * kPieceVoxelMm);
   EXPECT_LT(length(on_head - front), 0.2) << "a pixel";
   const nlohmann::json second =
       measured(pick + "drag left " + at(one) + " " + at(other) + " 8\nsettle\n");

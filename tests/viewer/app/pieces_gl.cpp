@@ -46,7 +46,7 @@ TEST_F(ViewPiecesGl, PiecesLookAsOneClayOfAllOfThemDoes) {
   ASSERT_TRUE(merged.ok());
   // A quarter turn, so that the box around it, and with it the camera, stays that of the clay.
   ChangePiece change{"Head"};
-  change.placement = Placement{kHead.position_mm, normalized(Quat{1.0, 0.0, 1.0, 0.0})};
+  change.placement = Placement{head_place_.position_mm, normalized(Quat{1.0, 0.0, 1.0, 0.0})};
   ASSERT_TRUE(merged.value().apply(change).ok());
   ASSERT_TRUE(io::save_sculpture(folder_ / "s.vdb", merged.value()).ok());
   sculpted("shot two.png\nframes 2\n");
@@ -60,8 +60,8 @@ TEST_F(ViewPiecesGl, PiecesLookAsOneClayOfAllOfThemDoes) {
 
 TEST_F(ViewPiecesGl, AStrokeIsOnTheActivePieceAndAKeySwitchesToTheOneUnderThePointer) {
   // On the nearest point of the head, as it is seen: nothing is sculpted before it is chosen.
-  const Vec3 toward = normalized(camera_.lens({}).eye_mm - kHead.position_mm);
-  const Vec3 front = kHead.position_mm + 9.0 * toward;
+  const Vec3 toward = normalized(camera_.lens({}).eye_mm - head_place_.position_mm);
+  const Vec3 front = head_place_.position_mm + 9.0 * toward;
   const std::string press = "drag left " + at(front) + " " + at(front) + " 3\nsettle\n";
   const Sculpture sculpture =
       sculpted(press + "move " + at(front) + "\nframes 2\nkey Alt+Q\nsettle\n" + press);
@@ -69,7 +69,7 @@ TEST_F(ViewPiecesGl, AStrokeIsOnTheActivePieceAndAKeySwitchesToTheOneUnderThePoi
   EXPECT_EQ(sculpture.active(), 1U);
   EXPECT_EQ(run_.report.at("dabs"), 1);
   // It stands out where the pointer was, in the frame of a piece that is turned.
-  const Vec3 own = viewer::turned_back(kHead, toward);
+  const Vec3 own = viewer::turned_back(head_place_, toward);
   EXPECT_LT(sculpture.clay(1).distance_at(9.0 * own), -0.08);
   EXPECT_NEAR(sculpture.clay(1).distance_at(-9.0 * own), 0.0, 0.03);
 }
@@ -86,7 +86,7 @@ TEST_F(ViewPiecesGl, TheGizmoMovesThePieceAndUploadsNoByte) {
   const Vec3 place = sculpture.look(0).placement.position_mm;
   EXPECT_NEAR(place.x, -8.0, 0.3);
   EXPECT_EQ(place.y, 0.0);
-  EXPECT_EQ(sculpture.look(1).placement.position_mm, kHead.position_mm);
+  EXPECT_EQ(sculpture.look(1).placement.position_mm, head_place_.position_mm);
 }
 
 TEST_F(ViewPiecesGl, ThePanelNamesColoursCombinesAndUndoes) {
@@ -104,7 +104,7 @@ TEST_F(ViewPiecesGl, ThePanelNamesColoursCombinesAndUndoes) {
   EXPECT_FALSE(sculpture.look(0).is_locked);
   EXPECT_EQ(sculpture.look(1).color, (Rgb8{72, 116, 196}));
   // The head reached into the body's top, which now has its hollow.
-  EXPECT_GT(sculpture.clay(0).distance_at(kHead.position_mm + Vec3{0.0, 0.0, -8.5}), 0.0);
+  EXPECT_GT(sculpture.clay(0).distance_at(head_place_.position_mm + Vec3{0.0, 0.0, -8.5}), 0.0);
 }
 
 TEST_F(ViewPiecesGl, NumbersOfThePanelPlaceThePieceExactly) {

@@ -32,7 +32,7 @@ class ViewRecentGl : public test::WindowTest {
   viewer::PicturePlaces places() const { return viewer::picture_places(home(), true); }
 
   WindowRun played(const std::string& script, const std::string& arguments) {
-    const WindowRun run = play("settle\n" + script, arguments);
+    WindowRun run = play("settle\n" + script, arguments);
     EXPECT_EQ(run.status, 0) << run.words;
     if (run.status != 0) return run;
     EXPECT_EQ(run.report["gl_errors"], 0);
@@ -42,7 +42,7 @@ class ViewRecentGl : public test::WindowTest {
 
   /// A project that was open in a window, and closed.
   fs::path opened_project(const std::string& name, double radius_mm) {
-    const fs::path file = folder_ / name;
+    fs::path file = folder_ / name;
     EXPECT_TRUE(io::save_project(file, Clay::ball(radius_mm, {}).value()).ok());
     played("key Ctrl+Q\nframes 3\n", shell_word(file));
     EXPECT_TRUE(viewer::has_picture(places().saved, file)) << name;

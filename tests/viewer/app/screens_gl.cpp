@@ -69,7 +69,7 @@ class Screens : public test::WindowTest {
     keep_pictures();
   }
   void keep_pictures() {
-    const char* shots = std::getenv("ARGIL_SHOTS");
+    const char* shots = std::getenv("ARGIL_SHOTS");  // NOLINT(concurrency-mt-unsafe): read only
     if (shots == nullptr) return;
     const std::filesystem::path to = std::filesystem::path(shots) / display_;
     std::filesystem::create_directories(to);

@@ -300,6 +300,7 @@ TEST_F(SittingGl, EveryStepDoesToThePiecesWhatThePageSays) {
 TEST(SittingPage, ShowsEveryPictureThatItsScriptTakes) {
   const test::PageScript page = test::read_page_script(kSitting);
   std::vector<fs::path> shown;
+  shown.reserve(page.pictures.size());
   for (const fs::path& picture : page.pictures) shown.push_back(kSitting.parent_path() / picture);
   EXPECT_EQ(shown, page.shots);
 }

@@ -89,6 +89,7 @@ TEST(SimpleLoops, OfARandomScribbleNeverCrossThemselves) {
   };
   for (int scene = 0; scene < 40; ++scene) {
     std::vector<Pixel> scribble;
+    scribble.reserve(30);
     for (int n = 0; n < 30; ++n) scribble.push_back({random(), random()});
     const auto loops = simple_loops(scribble);
     EXPECT_FALSE(loops.empty());
@@ -136,7 +137,7 @@ Pixel pixel_at(const Camera& camera, double x, double z) {
 }
 
 OutlineDrag drag_of(DragForm form, bool is_parallel,
-                    std::vector<std::pair<double, double>> points) {
+                    const std::vector<std::pair<double, double>>& points) {
   OutlineDrag drag;
   drag.form = form;
   drag.is_trim = true;

@@ -55,6 +55,7 @@ TEST(StrokeCurve, PassesThroughItsPointsSmoothlyAndStaysNearThem) {
   }
   // A circle's points give the circle to a hundredth of its radius.
   std::vector<Pixel> circle;
+  circle.reserve(13);
   for (int n = 0; n <= 12; ++n) {
     circle.push_back(
         {50.0 * std::cos(n * std::numbers::pi / 6), 50.0 * std::sin(n * std::numbers::pi / 6)});

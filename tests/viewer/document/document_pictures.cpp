@@ -59,7 +59,7 @@ class DocumentPicturesTest : public testing::Test {
   }
   /// A ball that was just saved under a name.
   fs::path saved_ball(const std::string& name) {
-    const fs::path file = folder_ / name;
+    fs::path file = folder_ / name;
     thread_->send(NewClay{{io::StartShape::Kind::ball, {15.0, 0.0, 0.0}, {}}});
     thread_->send(SaveProjectAs{file});
     settle();

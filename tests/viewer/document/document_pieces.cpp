@@ -63,13 +63,13 @@ class DocumentPiecesTest : public DocumentThreadTest {
     return {view, {{{0.0, -90.0}, {90.0, -90.0}, {90.0, 90.0}, {0.0, 90.0}}}, false};
   }
 
-  const Placement kTurned{{3.0, -7.0, 11.0}, normalized(Quat{0.6, 0.3, -0.5, 0.4})};
+  const Placement turned_place_{{3.0, -7.0, 11.0}, normalized(Quat{0.6, 0.3, -0.5, 0.4})};
   ClayState state_;
 };
 
 TEST_F(DocumentPiecesTest, AStrokeOnATurnedPieceLandsWhereThePointerWas) {
   thread_.send(NewClay{ball(20.0)});
-  place("Clay", kTurned);
+  place("Clay", turned_place_);
   settle_all();
   Stroke own;
   own.tool = small_tool();
@@ -79,8 +79,8 @@ TEST_F(DocumentPiecesTest, AStrokeOnATurnedPieceLandsWhereThePointerWas) {
   thread_.send(BeginStroke{own.tool, {}});
   for (const StrokeSample& sample : own.samples) {
     StrokeSample seen = sample;
-    seen.position_mm = placed(kTurned, sample.position_mm);
-    seen.orientation = kTurned.orientation;
+    seen.position_mm = placed(turned_place_, sample.position_mm);
+    seen.orientation = turned_place_.orientation;
     thread_.send(ExtendStroke{{seen}, 0.0});
   }
   thread_.send(EndStroke{});
@@ -126,7 +126,7 @@ TEST_F(DocumentPiecesTest, WhatOnlyMovesOrChangesLooksSendsNoBlocks) {
   mask.action = Action::mask;
   stroke({20.0, -3.0, 0.0}, {20.0, 3.0, 0.0}, mask);
   settle_all();
-  place("Clay", kTurned);
+  place("Clay", turned_place_);
   ChangePiece look{"Clay"};
   look.new_name = "Body";
   look.color = std::optional<std::optional<Rgb8>>(Rgb8{1, 2, 3});
@@ -136,7 +136,7 @@ TEST_F(DocumentPiecesTest, WhatOnlyMovesOrChangesLooksSendsNoBlocks) {
   thread_.send(DoStep{io::HistoryStep::undo});
   thread_.send(DoStep{io::HistoryStep::redo});
   EXPECT_TRUE(settle_all().empty());
-  EXPECT_EQ(piece("Clay").look.placement.position_mm, kTurned.position_mm);
+  EXPECT_EQ(piece("Clay").look.placement.position_mm, turned_place_.position_mm);
   // A stroke on one sends blocks of that one.
   const Vec3 ball = piece("Ball").look.placement.position_mm;
   const Vec3 top = ball + Vec3{0.0, 0.0, 40.0 / 6.0};
@@ -176,7 +176,7 @@ TEST_F(DocumentPiecesTest, TheListIsUndoneAndRedoneStepByStep) {
 
 TEST_F(DocumentPiecesTest, APieceStandsOnTheBedWithItsLowestPoint) {
   thread_.send(NewClay{{io::StartShape::Kind::block, {30.0, 20.0, 12.0}, {}}});
-  place("Clay", kTurned);
+  place("Clay", turned_place_);
   thread_.send(StandPiece{StandPiece::Where::bed});
   thread_.send(StandPiece{StandPiece::Where::middle});
   const Sculpture sculpture = saved();
@@ -187,7 +187,7 @@ TEST_F(DocumentPiecesTest, APieceStandsOnTheBedWithItsLowestPoint) {
   EXPECT_NEAR(box.min.z, 0.0, 1e-9);
   EXPECT_NEAR(box.center().x, 0.0, 1e-9);
   EXPECT_NEAR(box.center().y, 0.0, 1e-9);
-  EXPECT_EQ(sculpture.look(0).placement.orientation, kTurned.orientation);
+  EXPECT_EQ(sculpture.look(0).placement.orientation, turned_place_.orientation);
   const auto steps = thread_.state().steps->names.size();
   thread_.send(StandPiece{StandPiece::Where::middle});
   settle_all();
@@ -196,7 +196,7 @@ TEST_F(DocumentPiecesTest, APieceStandsOnTheBedWithItsLowestPoint) {
 
 TEST_F(DocumentPiecesTest, APieceIsLaidOnTheLargestSideThatItCanRestOn) {
   thread_.send(NewClay{{io::StartShape::Kind::block, {30.0, 20.0, 12.0}, {}}});
-  place("Clay", kTurned);
+  place("Clay", turned_place_);
   thread_.send(StandPiece{StandPiece::Where::flat});
   const Sculpture sculpture = saved();
   TriangleMesh mesh = extract_surface(sculpture.clay());
@@ -432,7 +432,7 @@ TEST_F(DocumentPiecesTest, TheHandOfADeviceWaitsWhileAnotherPieceIsActive) {
 
 TEST_F(DocumentPiecesTest, ASinglePieceThatWasPlacedIsExportedWhereItStands) {
   thread_.send(NewClay{ball(20.0)});
-  place("Clay", kTurned);
+  place("Clay", turned_place_);
   thread_.send(ExportMesh{folder_ / "one.3mf", {}});
   thread_.send(ExportMesh{folder_ / "one.stl", {}});
   settle_all();
@@ -444,7 +444,7 @@ TEST_F(DocumentPiecesTest, ASinglePieceThatWasPlacedIsExportedWhereItStands) {
   ASSERT_TRUE(read.ok());
   const std::vector<io::PlacedPart> parts = io::placed_parts(read.value().assembly);
   ASSERT_EQ(parts.size(), 1U);
-  EXPECT_LT(length(parts[0].to_mm.rows[3] - kTurned.position_mm), 1e-4);
+  EXPECT_LT(length(parts[0].to_mm.rows[3] - turned_place_.position_mm), 1e-4);
 }
 
 TEST_F(DocumentPiecesTest, VisiblePiecesAreExportedByNameWhereTheyStand) {

@@ -20,7 +20,7 @@ constexpr double kFlatMm = 0.001 * kRadiusMm;
 
 double depth_at(const viewer::DepthMap& map, int x, int y) {
   const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width);
-  return double{map.depth_mm[row + static_cast<std::size_t>(x)]};
+  return static_cast<double>(map.depth_mm[row + static_cast<std::size_t>(x)]);
 }
 
 struct Extent {

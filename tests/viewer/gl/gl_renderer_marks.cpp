@@ -178,7 +178,8 @@ TEST_F(RendererMarksGl, ASliceCutsTheClayBeforeItAway) {
   draw(picture);
   const viewer::DepthMap cut = renderer_->read_depth();
   constexpr std::size_t kMiddle = std::size_t{kWidth} * (kHeight / 2) + kWidth / 2;
-  EXPECT_NEAR(double{cut.depth_mm[kMiddle] - whole.depth_mm[kMiddle]}, 2.0 * kMarkedRadiusMm, 0.1);
+  EXPECT_NEAR(static_cast<double>(cut.depth_mm[kMiddle] - whole.depth_mm[kMiddle]),
+              2.0 * kMarkedRadiusMm, 0.1);
 }
 
 TEST_F(RendererMarksGl, ASliceShowsTheMaterialHatchedWithItsOutline) {

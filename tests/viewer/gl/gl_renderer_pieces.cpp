@@ -31,7 +31,7 @@ double different(const Image& a, const Image& b) {
 
 std::array<float, 3> moved_point(const Placement& placement, const std::array<float, 3>& p,
                                  bool is_direction) {
-  Vec3 v{double{p[0]}, double{p[1]}, double{p[2]}};
+  Vec3 v{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
   v = is_direction ? viewer::turned(placement, v) : placed(placement, v);
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -64,12 +64,12 @@ class RendererPiecesGl : public RendererScene {
   /// The first in its place, the second turned and moved; strokes go to the first.
   Picture two() const {
     Picture picture;
-    picture.pieces = {ShownPiece{1}, ShownPiece{2, kBeside}};
+    picture.pieces = {ShownPiece{1}, ShownPiece{2, beside_}};
     picture.pieces[1].is_active = false;
     return picture;
   }
 
-  const Placement kBeside =
+  const Placement beside_ =
       viewer::turned_about({{7.0, 3.0, 4.0}, {}}, {7.0, 3.0, 4.0}, normalized(Vec3{1, 2, 3}), 70.0);
   std::vector<BlockMesh> blocks_;
 };
@@ -77,7 +77,7 @@ class RendererPiecesGl : public RendererScene {
 TEST_F(RendererPiecesGl, EachIsDrawnWhereItStandsAsOneClayOfBothWouldBe) {
   for (BlockMesh block : blocks_) {
     ASSERT_TRUE(renderer_->put(0, block).ok());
-    block = stood(std::move(block), kBeside);
+    block = stood(std::move(block), beside_);
     block.id.origin[0] += 8000;
     ASSERT_TRUE(renderer_->put(0, block).ok());
   }
@@ -112,7 +112,7 @@ TEST_F(RendererPiecesGl, MovingAPieceUploadsNothingAndShowsItThere) {
   Picture picture = two();
   const Image before = draw(picture);
   const auto uploaded = renderer_->counts().uploaded_bytes;
-  picture.pieces[1].placement = viewer::moved(kBeside, {-12.0, 0.0, -2.0});
+  picture.pieces[1].placement = viewer::moved(beside_, {-12.0, 0.0, -2.0});
   const Image after = draw(picture);
   EXPECT_EQ(renderer_->counts().uploaded_bytes, uploaded);
   EXPECT_GT(different(before, after), 0.05);
@@ -131,8 +131,8 @@ TEST_F(RendererPiecesGl, AnEditOfATurnedPieceDrawsWhatAllOfThePictureWould) {
   const auto nearest =
       std::min_element(blocks_.begin(), blocks_.end(), [&](const BlockMesh& a, const BlockMesh& b) {
         const Vec3 eye = camera_.lens({}).eye_mm;
-        return length(placed(kBeside, a.bounds_mm.center()) - eye) <
-               length(placed(kBeside, b.bounds_mm.center()) - eye);
+        return length(placed(beside_, a.bounds_mm.center()) - eye) <
+               length(placed(beside_, b.bounds_mm.center()) - eye);
       });
   BlockMesh changed = *nearest;
   for (DisplayVertex& vertex : changed.vertices) vertex.normal = {0.0F, 0.0F, 1.0F};
@@ -157,7 +157,7 @@ TEST_F(RendererPiecesGl, AColourIsThatOfItsPieceAlone) {
   };
   const Rgb clay = at({-3.0, 0.0, 0.0});
   EXPECT_GT(clay.red, clay.blue);
-  const Rgb blue = at(kBeside.position_mm);
+  const Rgb blue = at(beside_.position_mm);
   EXPECT_GT(blue.blue, 2 * blue.red);
 }
 
@@ -172,7 +172,7 @@ TEST_F(RendererPiecesGl, TheDepthTellsWhereAnotherPieceIsInFront) {
                                             static_cast<std::size_t>(pixel.x)));
   };
   EXPECT_EQ(is_other({-3.0, 0.0, 0.0}), 0);
-  EXPECT_EQ(is_other(kBeside.position_mm), 1);
+  EXPECT_EQ(is_other(beside_.position_mm), 1);
   // A copy that lies in its original hides nothing of it.
   Picture copy = two();
   copy.pieces[1].placement = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each way to show clay does to its colours.
 #include <cmath>
+#include <initializer_list>
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -146,9 +147,10 @@ TEST_F(RendererShadingsGl, BackgroundIsAQuietGreyGradient) {
 
 /// What those who draw in this context may leave on.
 void leave_all_on() {
-  for (const GLenum on : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE,
-                          GL_PRIMITIVE_RESTART, GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP,
-                          GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL, GL_CLIP_DISTANCE0})
+  for (const GLenum on : std::initializer_list<GLenum>{
+           GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE, GL_PRIMITIVE_RESTART,
+           GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL,
+           GL_CLIP_DISTANCE0})
     glEnable(on);
   glScissor(0, 0, 10, 10);
   glViewport(3, 3, 20, 20);

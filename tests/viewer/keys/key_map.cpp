@@ -99,8 +99,10 @@ std::string documented(const KeyAim& aim) {
   for (const KeySet set : kAllSets) {
     const std::string key = shown_key(set, aim);
     const std::string fence = key.find('`') == std::string::npos ? "`" : "`` ";
-    line +=
-        key.empty() ? " – |" : " " + fence + key + std::string(fence.rbegin(), fence.rend()) + " |";
+    const std::string other(fence.rbegin(), fence.rend());
+    if (key.empty()) line.append(" –");
+    if (!key.empty()) line.append(" ").append(fence).append(key).append(other);
+    line.append(" |");
   }
   return line.append(" ").append(name_of(aim)).append(" |\n");
 }

@@ -19,7 +19,7 @@ class GizmoTest : public testing::Test {
     camera_.resize(800, 600);
     camera_.look_from(normalized(Vec3{0.5, -1.0, 0.6}), {0.0, 0.0, 1.0});
     camera_.frame({{-30.0, -30.0, -30.0}, {30.0, 30.0, 30.0}});
-    gizmo_ = gizmo_at(kPlace.position_mm, camera_);
+    gizmo_ = gizmo_at(place_.position_mm, camera_);
   }
   Camera::Pixel pixel_at(const Vec3& of_length) const {
     return camera_.pixel_of(gizmo_.center_mm + gizmo_.length_mm * of_length);
@@ -28,7 +28,7 @@ class GizmoTest : public testing::Test {
     return part_under(gizmo_, camera_, pixel_at(of_length));
   }
 
-  const Placement kPlace{{4.0, -3.0, 6.0}, normalized(Quat{0.8, 0.1, -0.5, 0.3})};
+  const Placement place_{{4.0, -3.0, 6.0}, normalized(Quat{0.8, 0.1, -0.5, 0.3})};
   Camera camera_;
   Gizmo gizmo_;
 };
@@ -54,18 +54,18 @@ TEST_F(GizmoTest, WhatIsHeldStaysUnderThePointer) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Vec3 along;
     along[axis] = 1.2;
-    GizmoDrag drag(gizmo_, {Kind::along, axis}, camera_, pixel_at(along), kPlace);
+    GizmoDrag drag(gizmo_, {Kind::along, axis}, camera_, pixel_at(along), place_);
     along[axis] = 2.0;
     const Placement there = drag.to(pixel_at(along), false);
-    Vec3 by = kPlace.position_mm;
+    Vec3 by = place_.position_mm;
     by[axis] += 0.8 * gizmo_.length_mm;
     EXPECT_LT(length(there.position_mm - by), 1e-6);
-    EXPECT_EQ(there.orientation, kPlace.orientation);
+    EXPECT_EQ(there.orientation, place_.orientation);
   }
-  GizmoDrag across(gizmo_, {Kind::across, 2}, camera_, pixel_at({0.4, 0.4, 0.0}), kPlace);
+  GizmoDrag across(gizmo_, {Kind::across, 2}, camera_, pixel_at({0.4, 0.4, 0.0}), place_);
   const Vec3 by = gizmo_.length_mm * Vec3{0.9, -0.5, 0.0};
   EXPECT_LT(
-      length(across.to(pixel_at({1.3, -0.1, 0.0}), false).position_mm - (kPlace.position_mm + by)),
+      length(across.to(pixel_at({1.3, -0.1, 0.0}), false).position_mm - (place_.position_mm + by)),
       1e-6);
 }
 
@@ -74,14 +74,14 @@ TEST_F(GizmoTest, ARingTurnsByTheAngleOfThePointerAlsoBeyondAWholeTurn) {
     const double turn = degrees * std::acos(-1.0) / 180.0;
     return pixel_at(0.85 * Vec3{std::cos(turn), std::sin(turn), 0.0});
   };
-  GizmoDrag drag(gizmo_, {Kind::around, 2}, camera_, at(-60.0), kPlace);
+  GizmoDrag drag(gizmo_, {Kind::around, 2}, camera_, at(-60.0), place_);
   Placement there;
   for (double degrees = -60.0; degrees <= 350.0; degrees += 10.0)
     there = drag.to(at(degrees), false);
-  const Placement wanted = turned_about(kPlace, gizmo_.center_mm, {0.0, 0.0, 1.0}, 410.0);
+  const Placement wanted = turned_about(place_, gizmo_.center_mm, {0.0, 0.0, 1.0}, 410.0);
   const Vec3 tip{10.0, 20.0, 30.0};
   EXPECT_LT(length(placed(there, tip) - placed(wanted, tip)), 1e-6);
-  EXPECT_LT(length(placed(there, unplaced(kPlace, gizmo_.center_mm)) - gizmo_.center_mm), 1e-9);
+  EXPECT_LT(length(placed(there, unplaced(place_, gizmo_.center_mm)) - gizmo_.center_mm), 1e-9);
 }
 
 /// Around all handles, facing the eye: whatever the camera, what is held stays under the pointer.
@@ -93,24 +93,24 @@ TEST_F(GizmoTest, TheOuterRingScalesAboutTheMiddle) {
   EXPECT_EQ(under(1.5 * right), ring);
   EXPECT_EQ(under(-1.5 * right), ring);
   EXPECT_EQ(under(1.7 * right), std::nullopt);
-  GizmoDrag drag(gizmo_, ring, camera_, pixel_at(1.5 * right), kPlace);
+  GizmoDrag drag(gizmo_, ring, camera_, pixel_at(1.5 * right), place_);
   const Placement there = drag.to(pixel_at(2.25 * right), false);
   EXPECT_NEAR(drag.factor(), 1.5, 0.01);
-  const Placement wanted = scaled_about(kPlace, gizmo_.center_mm, drag.factor());
+  const Placement wanted = scaled_about(place_, gizmo_.center_mm, drag.factor());
   EXPECT_TRUE(are_same(there, wanted));
   drag.to(pixel_at(2.2 * right), true);
   EXPECT_NEAR(drag.factor(), 1.45, 1e-9) << "in steps of 5 %";
   drag.to(pixel_at({}), false);
   EXPECT_EQ(drag.factor(), 0.01) << "never to nothing";
   // Whatever is dragged else scales nothing.
-  GizmoDrag along(gizmo_, {Kind::along, 0}, camera_, pixel_at({1.2, 0.0, 0.0}), kPlace);
+  GizmoDrag along(gizmo_, {Kind::along, 0}, camera_, pixel_at({1.2, 0.0, 0.0}), place_);
   along.to(pixel_at({2.0, 0.0, 0.0}), false);
   EXPECT_EQ(along.factor(), 1.0);
 }
 
 TEST_F(GizmoTest, ASnapIsToMillimetresAndTo15Degrees) {
-  GizmoDrag along(gizmo_, {Kind::along, 0}, camera_, pixel_at({1.2, 0.0, 0.0}), kPlace);
-  const double x = along.to(pixel_at({1.77, 0.0, 0.0}), true).position_mm.x - kPlace.position_mm.x;
+  GizmoDrag along(gizmo_, {Kind::along, 0}, camera_, pixel_at({1.2, 0.0, 0.0}), place_);
+  const double x = along.to(pixel_at({1.77, 0.0, 0.0}), true).position_mm.x - place_.position_mm.x;
   EXPECT_EQ(x, std::round(x));
   EXPECT_GT(x, 0.0);
   const auto at = [&](double turn) {

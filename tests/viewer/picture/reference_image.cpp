@@ -100,6 +100,7 @@ TEST(ReferenceImages, HasSmallerOnesThatAreMeansOfWhatTheyCover) {
   EXPECT_TRUE(levels_of(1, 1, {7})->smaller.empty());
   // Nothing moves, however odd the sides are: a ramp's middle stays its middle.
   std::vector<int> ramp;
+  ramp.reserve(127);
   for (int n = 0; n < 127; ++n) ramp.push_back(2 * n);
   const auto narrow = levels_of(127, 1, ramp);
   ASSERT_EQ(narrow->smaller.size(), 6U);

@@ -29,7 +29,8 @@ TEST(StereoProperty, APixelOfAHalfIsWhatItsEyeSees) {
     const Camera camera = some_camera(random, width, n % 2 == 1);
     const Camera::Pixel pixel{width * share(random), 600.0 * share(random)};
     const WindowPart part = part_at(camera, true, pixel);
-    EXPECT_EQ(part.eye, pixel.x < width / 2 ? 0U : 1U);
+    const int left_half = width / 2;
+    EXPECT_EQ(part.eye, pixel.x < left_half ? 0U : 1U);
     const Ray ray = part.ray_at(pixel);
     const double base = camera.is_parallel() ? 100.0 * camera.distance_mm() : 0.0;
     const Vec3 place = ray.origin_mm + (base + 50.0 + 200.0 * share(random)) * ray.direction;

@@ -122,7 +122,7 @@ TEST(StillPictures, AverageLight) {
 std::array<double, 4> by_matrix(const Matrix& m, const std::array<double, 4>& v) {
   std::array<double, 4> out{};
   for (std::size_t row = 0; row < 4; ++row) {
-    for (std::size_t k = 0; k < 4; ++k) out[row] += double{m[4 * k + row]} * v[k];
+    for (std::size_t k = 0; k < 4; ++k) out[row] += static_cast<double>(m[4 * k + row]) * v[k];
   }
   return out;
 }

@@ -96,6 +96,7 @@ TEST_F(ImageReaderTest, AddsAnImageToThoseThatItLists) {
 
 TEST_F(ImageReaderTest, ForgetsWhatNobodyWantsAnyMore) {
   std::vector<fs::path> files;
+  files.reserve(4);
   for (int n = 0; n < 4; ++n) files.push_back(png("large" + std::to_string(n) + ".png", 1500));
   const fs::path wanted = png("wanted.png");
   for (const fs::path& file : files) reader_->read_reference(file);

@@ -43,7 +43,8 @@ std::vector<BlockMesh> blocks_of(const Clay& clay, const std::optional<DisplayVi
     bool is_masked = false;
     for (const DisplayVertex& v : from.vertices) {
       const auto& p = v.position_mm;
-      const double masked = clay.mask_at({double{p[0]}, double{p[1]}, double{p[2]}});
+      const double masked = clay.mask_at(
+          {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
       block.mask.push_back(static_cast<std::uint8_t>(std::lround(255.0 * masked)));
       is_masked = is_masked || masked > 0.0;
     }

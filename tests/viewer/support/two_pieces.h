@@ -19,7 +19,7 @@ class TwoPiecesTest : public WindowTest {
   /// Seen from wherever the window looks, also before it has framed them: what is uploaded does not
   /// depend on when the document hears of that.
   static constexpr double kPieceVoxelMm = 0.5;
-  const Placement kHead{{4.0, 0.0, 21.5}, normalized(Quat{0.9, 0.0, 0.4, 0.0})};
+  const Placement head_place_{{4.0, 0.0, 21.5}, normalized(Quat{0.9, 0.0, 0.4, 0.0})};
 
   void SetUp() override;
   /// Where the window shows a place, when it was just opened.

@@ -164,6 +164,7 @@ class PresetReader {
   Result<void> take_tool(const io::SettingsEntry& entry) {
     const auto* word = std::get_if<std::string>(&entry.value);
     std::vector<std::string_view> names;
+    names.reserve(tool_infos().size());
     for (const ToolInfo& info : tool_infos()) {
       names.emplace_back(info.name);
       if (word == nullptr || *word != std::string_view(info.name)) continue;

@@ -118,6 +118,7 @@ std::vector<SearchEntry> found_entries(const SearchChoice& choice, const KeyMap&
     return is_all ? a.age < b.age : a.score > b.score;
   });
   std::vector<SearchEntry> entries;
+  entries.reserve(found.size());
   for (Scored& each : found) entries.push_back(std::move(each.entry));
   return entries;
 }

@@ -264,7 +264,7 @@ void Document::read_steps() {
 Result<void> Document::deepen(const Progress& progress) {
   assert(has_project());
   if (has_unread_steps_) read_steps();
-  const auto deepened = session_->deepen(progress);
+  auto deepened = session_->deepen(progress);
   keep_reachable();
   return deepened;
 }
@@ -357,7 +357,7 @@ Result<std::vector<std::string>> Document::open(const fs::path& project, bool sa
   auto session = io::Session::open(project, kSessionOptions, progress);
   if (!session) return session.error();
   const bool is_untitled = is_without_name(project);
-  const std::vector<std::string> notes = session.value().notes();
+  std::vector<std::string> notes = session.value().notes();
   auto taken = take(std::move(session).value(), project, is_untitled, saves_former);
   if (!taken) return taken.error();
   is_only_here_ = is_untitled;

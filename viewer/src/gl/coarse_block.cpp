@@ -39,7 +39,8 @@ std::size_t cell_of(const Box3& bounds, const std::array<float, 3>& position) {
   const Vec3 size = bounds.size();
   std::size_t cell = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double fraction = size[a] > 0.0 ? (double{position[a]} - bounds.min[a]) / size[a] : 0.0;
+    const double fraction =
+        size[a] > 0.0 ? (static_cast<double>(position[a]) - bounds.min[a]) / size[a] : 0.0;
     const double at = std::clamp(kCellsAlong * fraction, 0.0, kCellsAlong - 1.0);
     cell = kCellsAlong * cell + static_cast<std::size_t>(at);
   }
@@ -65,7 +66,7 @@ std::vector<std::uint32_t> standing_for(const BlockMesh& block) {
     const auto& p = block.vertices[n].position_mm;
     cell_at[n] = cell_of(block.bounds_mm, p);
     Cell& cell = cells[cell_at[n]];
-    for (std::size_t a = 0; a < 3; ++a) cell.sum[a] += double{p[a]};
+    for (std::size_t a = 0; a < 3; ++a) cell.sum[a] += static_cast<double>(p[a]);
     cell.count += 1.0;
   }
   const auto each_inside = [&](const auto& what) {
@@ -76,7 +77,8 @@ std::vector<std::uint32_t> standing_for(const BlockMesh& block) {
   each_inside([&](std::uint32_t n, Cell& cell) {
     double away = 0.0;
     for (std::size_t a = 0; a < 3; ++a) {
-      const double d = double{block.vertices[n].position_mm[a]} - cell.sum[a] / cell.count;
+      const double d =
+          static_cast<double>(block.vertices[n].position_mm[a]) - cell.sum[a] / cell.count;
       away += d * d;
     }
     if (away < cell.nearest) {

@@ -57,7 +57,7 @@ void bind_vertices(const GlBuffer& vertices, const GlBuffer& triangles) {
 }
 
 Vec3 vec_of(const std::array<float, 3>& p) noexcept {
-  return {double{p[0]}, double{p[1]}, double{p[2]}};
+  return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
 }
 
 /// Whether a box lies wholly on the outer side of one plane.
@@ -66,7 +66,8 @@ bool is_outside(const std::array<float, 3>& center, const std::array<float, 3>& 
   for (const BoundPlane& plane : bounds) {
     double reach = plane.offset;
     for (std::size_t a = 0; a < 3; ++a) {
-      reach += plane.normal[a] * double{center[a]} + std::abs(plane.normal[a]) * double{half[a]};
+      reach += plane.normal[a] * static_cast<double>(center[a]) +
+               std::abs(plane.normal[a]) * static_cast<double>(half[a]);
     }
     if (reach < 0.0) return true;
   }
@@ -95,9 +96,10 @@ bool is_turned_away(const NormalCone& cone, const std::array<float, 3>& center,
   constexpr double kMargin = 1e-3;
   if (cone.sine > 1.0F) return false;
   const Vec3 axis = vec_of(cone.axis);
-  if (lens.is_parallel) return dot(-lens.back, axis) >= double{cone.sine} + kMargin;
+  if (lens.is_parallel) return dot(-lens.back, axis) >= static_cast<double>(cone.sine) + kMargin;
   const Vec3 away = vec_of(center) - lens.eye_mm;
-  return dot(away, axis) >= (double{cone.sine} + kMargin) * length(away) + length(vec_of(half));
+  return dot(away, axis) >=
+         (static_cast<double>(cone.sine) + kMargin) * length(away) + length(vec_of(half));
 }
 
 }  // namespace

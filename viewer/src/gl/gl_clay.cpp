@@ -58,7 +58,8 @@ Matrix view_projection(const Lens& lens) noexcept {
     for (std::size_t row = 0; row < 4; ++row) {
       double sum = 0.0;
       for (std::size_t k = 0; k < 4; ++k)
-        sum += double{projection[4 * k + row]} * double{view[4 * column + k]};
+        sum += static_cast<double>(projection[4 * k + row]) *
+               static_cast<double>(view[4 * column + k]);
       product[4 * column + row] = static_cast<float>(sum);
     }
   }

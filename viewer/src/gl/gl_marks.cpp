@@ -54,7 +54,8 @@ void sort_from_afar(std::vector<SolidVertex>& solids, const Lens& lens) {
     double nearness = 0.0;
     for (const SolidVertex& corner : corners) {
       const auto& p = corner.position;
-      nearness += dot(lens.back, {double{p[0]}, double{p[1]}, double{p[2]}});
+      nearness += dot(lens.back, {static_cast<double>(p[0]), static_cast<double>(p[1]),
+                                  static_cast<double>(p[2])});
     }
     sorted.emplace_back(nearness, corners);
   }

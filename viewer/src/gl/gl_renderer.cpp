@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
@@ -97,10 +98,10 @@ bool has_overlay(const Picture& picture) {
 
 /// What others who draw in this context may have left on.
 void reset_state() {
-  for (const GLenum off :
-       {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE, GL_PRIMITIVE_RESTART,
-        GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_RASTERIZER_DISCARD,
-        GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0})
+  for (const GLenum off : std::initializer_list<GLenum>{
+           GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_BLEND, GL_CULL_FACE, GL_PRIMITIVE_RESTART,
+           GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_RASTERIZER_DISCARD,
+           GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0})
     glDisable(off);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);

@@ -237,6 +237,7 @@ std::optional<Vec3> Gui::position_of(const std::string& label) const {
 
 std::vector<std::string> Gui::labels() const {
   std::vector<std::string> all;
+  all.reserve(positions().shown.size());
   for (const auto& [label, position] : positions().shown) all.push_back(label);
   return all;
 }

@@ -56,7 +56,7 @@ int glfw_modifiers(const Modifiers& modifiers) {
 /// fingers are heard (pen.h): X11, also that of a Wayland session, where there is one.
 bool start_glfw() {
 #ifdef GLFW_PLATFORM_X11
-  if (std::getenv("DISPLAY") != nullptr) {
+  if (std::getenv("DISPLAY") != nullptr) {  // NOLINT(concurrency-mt-unsafe): nobody changes it
     glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
     if (glfwInit() == GLFW_TRUE) return true;
     glfwInitHint(GLFW_PLATFORM, GLFW_ANY_PLATFORM);
@@ -314,6 +314,7 @@ void Window::play(const InputEvent& event) {
       break;
     case InputEvent::Kind::drop: {
       std::vector<const char*> files;
+      files.reserve(event.files.size());
       for (const std::string& file : event.files) files.push_back(file.c_str());
       callback_of(glfwSetDropCallback)(window_, static_cast<int>(files.size()), files.data());
       break;

@@ -68,6 +68,7 @@ std::string tool_key_text(KeySet set, const ToolInfo& tool) {
 const std::vector<KeyAim>& all_key_aims() {
   static const std::vector<KeyAim> all = [] {
     std::vector<KeyAim> aims;
+    aims.reserve(command_infos().size());
     for (const CommandInfo& info : command_infos()) aims.emplace_back(info.command);
     for (const ToolInfo& info : tool_infos()) aims.emplace_back(&info);
     return aims;

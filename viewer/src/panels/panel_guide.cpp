@@ -30,6 +30,7 @@ void draw_guide(const UiState& ui) {
     way = curve_through(way);
   }
   std::vector<ImVec2> corners;
+  corners.reserve(way.size());
   for (const Camera::Pixel& pixel : way) corners.push_back(guide_corner(pixel));
   if (corners.size() > 1) {
     list.AddPolyline(corners.data(), static_cast<int>(corners.size()), color, ImDrawFlags_None,

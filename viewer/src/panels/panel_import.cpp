@@ -151,6 +151,7 @@ void draw_picture(const ImportChoice& choice, const MeshOffer& offer) {
   list.PushClipRect(low, high, true);
   const Vec3 size = size_of(choice, offer);
   std::vector<Vec3> points;
+  points.reserve(8);
   for (unsigned n = 0; n < 8; ++n) points.push_back(corner_of(size, n));
   const Vec3 feet = figure_place(size);
   points.push_back(feet - Vec3{0.2 * kFigureMm, 0.0, 0.0});
@@ -185,6 +186,7 @@ void draw_frame(ImportChoice& choice, const MeshOffer& offer) {
     units.push_back(offer.frame.unit);
   }
   std::vector<std::string> names;
+  names.reserve(units.size());
   for (const io::LengthUnit each : units) names.emplace_back(io::unit_name(each));
   int at = static_cast<int>(std::find(units.begin(), units.end(), choice.unit) - units.begin());
   if (pick_one("Unit of the file", at, names)) {

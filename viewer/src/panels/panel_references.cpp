@@ -25,6 +25,7 @@ constexpr float kReferenceFieldWidth = 90.0F;
 
 std::vector<std::string> view_titles() {
   std::vector<std::string> titles;
+  titles.reserve(kStraightViews);
   for (int n = 0; n < kStraightViews; ++n) {
     titles.emplace_back(title_of(static_cast<StraightView>(n)));
   }
