@@ -126,6 +126,13 @@ bool perform_on_view(Command command, UiState& ui) {
     case Command::stereo:
       ui.show.is_stereo = !ui.show.is_stereo;
       return true;
+    default:
+      return false;
+  }
+}
+
+bool perform_on_panels(Command command, UiState& ui) {
+  switch (command) {
     case Command::panels:
       ui.panels.has_tools = ui.panels.has_brush = ui.panels.has_view = !ui.panels.has_tools;
       return true;
@@ -410,8 +417,8 @@ bool is_possible(Command command, const UiState& ui) noexcept {
 void perform(Command command, UiState& ui, DocumentThread& document) {
   // An undo that is not done yet makes a redo possible: the document thread knows.
   if (!is_possible(command, ui) && command != Command::redo) return;
-  if (perform_on_view(command, ui) || perform_on_brush(command, ui)) return;
-  if (perform_on_measures(command, ui)) return;
+  if (perform_on_view(command, ui) || perform_on_panels(command, ui)) return;
+  if (perform_on_brush(command, ui) || perform_on_measures(command, ui)) return;
   if (perform_on_piece(command, ui, document) || perform_on_mask(command, ui, document)) return;
   switch (command) {
     case Command::new_clay:

@@ -177,7 +177,10 @@ Loop beside_curve(const WindowPart& part, const Loop& points) {
   const Pixel& before = loop[loop.size() - 2];
   double from = ring.angle_of(last, {2.0 * last.x - before.x, 2.0 * last.y - before.y});
   const double to = begin > from ? begin : begin + 2.0 * std::numbers::pi;
-  for (; from < to; from += kStep) loop.push_back(ring.at(from));
+  while (from < to) {
+    loop.push_back(ring.at(from));
+    from += kStep;
+  }
   loop.push_back(ring.at(to));
   return loop;
 }
