@@ -281,7 +281,8 @@ Result<void> GlRenderer::draw_clay(const Picture& picture, GlTargets& to) {
   bool is_whole = true;
   for (const EyeView& eye : eyes_of(picture, to.width(), to.height())) {
     std::vector<PieceView> seen = views_of(picture, eye, {}, true);
-    for (PieceView& other : views_of(picture, eye, {}, false)) seen.push_back(std::move(other));
+    const std::vector<PieceView> others = views_of(picture, eye, {}, false);
+    seen.insert(seen.end(), others.begin(), others.end());
     for (const PixelRect& area : touched_.areas_in(eye, seen)) {
       is_whole = is_whole && area == eye.part;
       if (auto drawn = draw_area(picture, eye, area, to); !drawn) return drawn;

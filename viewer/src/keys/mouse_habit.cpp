@@ -27,12 +27,10 @@ PressMeaning meaning_of(KeySet set, MouseButton button, const Modifiers& held) n
   const bool is_middle = button == MouseButton::middle;
   const bool turns_by_middle = set == KeySet::blender && is_middle && !held.shift;
   // Alt stands in for the right button on trackpads and pens.
-  if (turns_by_middle) {
-    meaning.what = What::turn;
-  } else if (is_middle || (held.alt && held.shift) ||
-             (button == MouseButton::right && held.shift)) {
+  const bool is_right = button == MouseButton::right || held.alt;
+  if (!turns_by_middle && (is_middle || (is_right && held.shift))) {
     meaning.what = What::move;
-  } else if (button == MouseButton::right || held.alt) {
+  } else if (turns_by_middle || is_right) {
     meaning.what = What::turn;
   }
   return meaning;

@@ -87,7 +87,7 @@ std::pair<double, double> Still::rows() const {
 
 void Still::take(const Image& part) {
   assert(!is_done() && part.width == part_width_ && part.height == part_height_);
-  static const std::array<float, 256> kLight = light_of_values();
+  static const std::array<float, 256> light = light_of_values();
   const auto [left, upper] = corner();
   const int samples = options_.samples;
   const float share = 1.0F / static_cast<float>(samples * samples);
@@ -100,7 +100,7 @@ void Still::take(const Image& part) {
         const int column = kPartMargin + (x - left) * samples + n % samples;
         const int row = kPartMargin + (y - upper) * samples + n / samples;
         const std::size_t at = 3 * static_cast<std::size_t>(row * part.width + column);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += kLight[part.rgb[at + c]];
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += light[part.rgb[at + c]];
       }
       const std::size_t to =
           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) +
