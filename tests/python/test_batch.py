@@ -48,9 +48,11 @@ def command(folder, out, *more, program=BATCH):
 
 
 def start(*arguments, **more):
-    """In a process group of its own, as a shell starts it."""
+    """In a process group of its own and with Ctrl-C heard, as a shell starts it in the foreground:
+    what a script starts in the background inherits that it is ignored."""
     return subprocess.Popen(command(*arguments, **more), stdout=subprocess.PIPE, text=True,
-                            stderr=subprocess.STDOUT, start_new_session=True)
+                            stderr=subprocess.STDOUT, start_new_session=True,
+                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
 
 def workers_of(process):
