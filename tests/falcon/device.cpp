@@ -151,17 +151,8 @@ struct PushingThread {
   PushingThread(EmulatedFalcon& falcon, FalconDevice& opened)
       : emulated(falcon), device(opened), noting(opened, falcon.clock()) {}
 
-  /// A Falcon whose emulator gets no time on a busy machine counts as silent: it is homed again.
   bool pushes() {
-    const auto has_force = [&] { return length(device.look().force_n) > 2.0; };
-    const auto is_silent = [&] { return device.look().fault == FalconFault::silent; };
-    for (int attempt = 0; attempt < 3; ++attempt) {
-      if (!until([&] { return has_force() || is_silent(); })) return false;
-      if (!is_silent()) return true;
-      device.home();
-      if (!until([&] { return !is_silent(); })) return false;
-    }
-    return false;
+    return until([&] { return length(device.look().force_n) > 2.0; });
   }
 
   /// Of how it is, for one that does not push.
