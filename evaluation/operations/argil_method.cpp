@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Argil's own operations: each is taken back before the next, which gives the clay its bits again.
-#include <cassert>
 #include <memory>
 #include <utility>
 
@@ -29,7 +28,7 @@ class ArgilMethod final : public OperationMethod {
 
   Result<RunTime> run(Task task) override {
     if (task == Task::import) return import();
-    assert(clay_ != nullptr);
+    if (clay_ == nullptr) return Error{ErrorKind::bad_input, "its import failed"};
     clay_->undo();
     const Operation operation = operation_of(task);
     const RunClock clock;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cassert>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -32,7 +31,7 @@ class OpenvdbMethod final : public OperationMethod {
       imported_.emplace(*body_->mesh, kVoxelMm);
       return clock.read();
     }
-    assert(imported_);
+    if (!imported_) return Error{ErrorKind::bad_input, "its import failed"};
     made_.emplace(imported_->copy());
     const RunClock clock;
     apply(task);

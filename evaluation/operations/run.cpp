@@ -9,6 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "argil/core/no_throw.h"
+
 #include "blender/made_mesh.h"
 #include "chart/chart.h"
 #include "common/output.h"
@@ -76,7 +78,8 @@ class OperationsRun {
       return {};
     }
     if (auto timed = time_runs(
-            options_.most_runs, [&] { return method.run(task); }, row);
+            options_.most_runs,
+            [&] { return no_throw(row.method, [&] { return method.run(task); }); }, row);
         !timed) {
       if (timed.error().kind == ErrorKind::interrupted) return timed;
       skip_row(row, timed.error().message, result_);

@@ -28,10 +28,16 @@ void check_numpy() {
                          "; install numpy<2, or build argil with pybind11 2.12 or later");
 }
 
+/// Left to itself, pybind11 before 2.13 does so when the first array comes, behind a guard, and
+/// lets the interpreter go meanwhile: another thread that brings one waits for the guard and keeps
+/// the interpreter from whoever holds that.
+void look_up_numpy() { argil::python::py::dtype::of<double>(); }
+
 }  // namespace
 
 PYBIND11_MODULE(_native, module) {
   check_numpy();
+  look_up_numpy();
   module.attr("__version__") = ARGIL_VERSION;
   argil::python::add_errors(module);
   argil::python::add_end_of_work();

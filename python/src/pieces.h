@@ -13,9 +13,9 @@
 
 namespace argil::python {
 
-/// Does `act(begin, end)` for pieces of `count` rows, of `chunk` or more each, on all cores;
-/// `progress` is told between them and may stop it: every 0.05 s or so, whatever a row takes,
-/// unless one alone takes longer.
+/// Does `act(begin, end)` for pieces of `count` rows, of `chunk` or more each, on all cores, and
+/// without TBB where one is all; `progress` is told between them and may stop it: every 0.05 s or
+/// so, whatever a row takes, unless one alone takes longer.
 ///
 /// Errors   interrupted; what no_throw says of exceptions.
 /// Cost     beside the work a few us for each 0.05 s.
@@ -33,8 +33,13 @@ Result<void> in_pieces(const char* what, std::size_t count, std::size_t chunk,
       pace.at(static_cast<double>(begin) / static_cast<double>(count));
       const auto start = Clock::now();
       const std::size_t end = std::min(count, begin + rows);
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, chunk),
-                        [&](const auto& part) { act(part.begin(), part.end()); });
+      // A child that is forked as another thread first comes to TBB finds its lock held for ever.
+      if (end - begin <= chunk) {
+        act(begin, end);
+      } else {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, chunk),
+                          [&](const auto& part) { act(part.begin(), part.end()); });
+      }
       const auto took = Clock::now() - start;
       if (took < kShort) rows *= 2;
       if (took > kLong) rows = std::max(chunk, rows / 2);

@@ -337,7 +337,30 @@ def test_daemons_work_on_while_handlers_of_the_end_run():
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "True\n", "")
 
 
-# A switch at every chance has forks meet the other thread within a call.
+# pybind11 looked NumPy up at the first array, behind a guard: a second thread that brought one meanwhile waited for
+# ever.
+FIRST_ARRAY = """
+import builtins
+import numpy as np
+import argil
+clay, imported, import_module = argil.Clay.ball(5, voxel_mm=0.5), [], builtins.__import__
+def noting(name, *rest, **more):
+    imported.append(name)
+    return import_module(name, *rest, **more)
+builtins.__import__ = noting
+clay.distance(np.zeros((1, 3)))
+builtins.__import__ = import_module
+print(imported)
+"""
+
+
+def test_the_first_array_imports_nothing():
+    ran = subprocess.run([sys.executable, "-c", FIRST_ARRAY], capture_output=True, text=True, timeout=120)
+    assert (ran.returncode, ran.stdout) == (0, "[]\n"), ran.stderr
+
+
+# A switch at every chance has forks meet the other thread within a call. Once in a thousand runs the first fork met it
+# as it came to TBB for the first time, and the child waited for TBB's lock.
 FORKS = """
 import os, signal, sys, threading, time
 import numpy as np

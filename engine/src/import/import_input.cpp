@@ -213,15 +213,21 @@ Result<void> check_memory(const ImportInput& input, std::uint64_t limit_bytes) {
   const std::uint64_t limit = limit_bytes != 0 ? limit_bytes : available_bytes() / 10 * 9;
   const std::uint64_t need = estimated_bytes(input, input.voxel_mm);
   if (need <= limit) return {};
+  const auto gb = [](std::uint64_t bytes) { return number(1e-9 * static_cast<double>(bytes)); };
   double fits = input.voxel_mm;
   while (estimated_bytes(input, fits) > limit && fits < 1e6 * input.voxel_mm) fits *= 1.02;
+  if (const std::uint64_t least = estimated_bytes(input, fits); least > limit) {
+    return Error{ErrorKind::memory,
+                 "a mesh of " + std::to_string(input.triangles.size()) + " triangles needs about " +
+                     gb(least) + " GB whatever its voxels, and " + gb(limit) +
+                     " GB are free; import one of fewer triangles, or allow more memory"};
+  }
   const double step = std::pow(10.0, std::floor(std::log10(fits)) - 1.0);
   fits = std::ceil(fits / step) * step;  // two digits, rounded to what certainly fits
-  return Error{ErrorKind::memory,
-               "voxels of " + number(input.voxel_mm) + " mm need about " +
-                   number(static_cast<double>(need) / 1e9) + " GB for this mesh and " +
-                   number(static_cast<double>(limit) / 1e9) + " GB are free; choose voxels of " +
-                   number(fits) + " mm or larger"};
+  return Error{ErrorKind::memory, "voxels of " + number(input.voxel_mm) + " mm need about " +
+                                      gb(need) + " GB for this mesh and " + gb(limit) +
+                                      " GB are free; choose voxels of " + number(fits) +
+                                      " mm or larger"};
 }
 
 }  // namespace argil

@@ -263,6 +263,15 @@ TEST(ImportRefuses, MoreThanTheMemoryAndNamesTheVoxelThatFits) {
   EXPECT_TRUE(import_mesh(ball, options(fits), {}, limit).ok()) << less.message;
 }
 
+/// It named voxels of 260 m.
+TEST(ImportRefuses, MoreTrianglesThanTheMemoryHoldsWhateverTheVoxel) {
+  const TriangleMesh ball = test::ball_mesh(50.0, 4);
+  const Error error = refusal(ball, options(0.25), 100 * ball.triangles.size());
+  EXPECT_EQ(error.kind, ErrorKind::memory);
+  EXPECT_THAT(error.message, HasSubstr("a mesh of " + std::to_string(ball.triangles.size())));
+  EXPECT_THAT(error.message, HasSubstr("fewer triangles"));
+}
+
 TEST(ImportProgress, StopsWhenAskedAndNamesItsStages) {
   std::vector<std::string> stages;
   const auto stop =
